@@ -1,0 +1,29 @@
+# make demo | test | test-all | bench | package, each sets up what it needs in VENV first.
+# PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS).
+PYTHON ?=
+VENV ?= .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test test-all lint bench package environment
+
+environment:
+	@tools/environment.sh $(VENV) $(PYTHON)
+
+demo: environment
+	@$(BIN)/python -m examples.demo
+
+lint: environment
+	$(BIN)/ruff check .
+	$(BIN)/basedpyright
+
+test: lint
+	$(BIN)/python -m pytest -m "not slow"
+
+test-all: lint
+	$(BIN)/python -m pytest
+
+bench: environment
+	@$(BIN)/python -m examples.bench
+
+package: environment
+	@$(BIN)/python -m blender_addon.package

@@ -1,0 +1,248 @@
+"""Look-up table of a skin's appearance over its tanning states.
+
+What a table holds and how it lies in an EXR file, shared by the table builder, which writes it
+with OpenImageIO, and by the add-on, which reads the pixels with Blender's own image loader.
+numpy only.
+
+The file is one float EXR with the channels R, G, B. Its pixels are the entries of `PLANES`, one
+plane below the other from the top; within a plane a row holds the knots of the first axis, and
+rows run over the knots of the remaining axes, the second axis fastest. The attribute
+`skinTanTable` of its header holds everything else as JSON.
+"""
+
+import hashlib
+import json
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError
+
+FORMAT = "skin tan table"
+FORMAT_VERSION = 1
+HEADER_ATTRIBUTE = "skinTanTable"
+PLANES = ("subsurface_colour", "total_colour", "band_reflectance", "profile_width")
+"""What each plane of a table holds, three numbers to a state.
+
+subsurface_colour
+    Linear Rec.709 under D65 of light that has been inside the skin: the albedo of a shader.
+total_colour
+    The same with the light that the surface reflects: the colour a measurement sees.
+band_reflectance
+    Total reflectance at the three wavelengths `bands_nm` of the header.
+profile_width
+    Width d in mm of Burley's diffusion profile in the red, green and blue channel.
+"""
+STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness")
+
+
+@dataclass(frozen=True)
+class StateAxes:
+    """Coordinates of tanning states.
+
+    A state is (melanin of basale, spinosum, granulosum, thickness), as `TanningHistory.states`
+    has it. Its coordinates are the logarithm of its ratio to the untanned state, projected on
+    the orthonormal columns of `basis`; the untanned skin lies at 0.
+
+    Attributes
+    ----------
+    untanned : (4,) array
+    basis : (4, K) array
+    knots : K ascending arrays, each with at least one knot
+    """
+
+    untanned: np.ndarray
+    basis: np.ndarray
+    knots: tuple[np.ndarray, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of knots on each axis."""
+        return tuple(len(axis) for axis in self.knots)
+
+    def coordinates(self, states: np.ndarray) -> np.ndarray:
+        """Coordinates (..., K) of states (..., 4)."""
+        return np.log(states / self.untanned) @ self.basis
+
+    def states(self, coordinates: np.ndarray) -> np.ndarray:
+        """States (..., 4) at coordinates (..., K)."""
+        return self.untanned * np.exp(coordinates @ self.basis.T)
+
+    def knot_states(self) -> np.ndarray:
+        """States at all knots, shape (*shape, 4)."""
+        return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
+
+
+@dataclass(frozen=True)
+class SkinTable:
+    """A skin's appearance at the knots of its tanning states.
+
+    Attributes
+    ----------
+    axes : StateAxes
+    values : (*axes.shape, len(PLANES), 3) array
+    provenance : dict
+        What made the table: specimen, pigmentation, wavelengths, rays, seed, errors, version.
+    """
+
+    axes: StateAxes
+    values: np.ndarray
+    provenance: dict
+
+    def lookup(self, states: np.ndarray) -> np.ndarray:
+        """Appearance (..., len(PLANES), 3) of tanning states (..., 4).
+
+        Multilinear between the knots; beyond the outermost knots their value is held.
+        """
+        coordinates = self.axes.coordinates(states)
+        result = np.zeros((*states.shape[:-1], *self.values.shape[-2:]))
+        lows, weights = zip(
+            *(_cell(axis, coordinates[..., k]) for k, axis in enumerate(self.axes.knots)),
+            strict=True,
+        )
+        for corner in np.ndindex(*(2,) * len(lows)):
+            index = tuple(
+                np.minimum(low + step, len(axis) - 1)
+                for low, step, axis in zip(lows, corner, self.axes.knots, strict=True)
+            )
+            weight = np.ones(states.shape[:-1])
+            for step, fraction in zip(corner, weights, strict=True):
+                weight = weight * (fraction if step else 1.0 - fraction)
+            result += weight[..., None, None] * self.values[index]
+        return result
+
+    def plane(self, name: str, states: np.ndarray) -> np.ndarray:
+        """One of `PLANES` at tanning states (..., 4), shape (..., 3)."""
+        return self.lookup(states)[..., PLANES.index(name), :]
+
+
+def _cell(knots: np.ndarray, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Index of the knot below each position, and how far it is to the next one, 0 to 1."""
+    if len(knots) == 1:
+        return np.zeros(position.shape, int), np.zeros(position.shape)
+    low = np.clip(np.searchsorted(knots, position, side="right") - 1, 0, len(knots) - 2)
+    fraction = (position - knots[low]) / (knots[low + 1] - knots[low])
+    return low, np.clip(fraction, 0.0, 1.0)
+
+
+def to_pixels(table: SkinTable) -> tuple[np.ndarray, str]:
+    """Pixels (rows, columns, 3) from the top row on, float32, and the header's JSON text."""
+    values = np.moveaxis(table.values, -2, 0)
+    reversed_axes = values.transpose(0, *range(len(table.axes.shape), 0, -1), values.ndim - 1)
+    pixels = np.ascontiguousarray(
+        reversed_axes.reshape(-1, table.axes.shape[0], 3), dtype=np.float32
+    )
+    header = {
+        "format": FORMAT,
+        "format_version": FORMAT_VERSION,
+        "planes": list(PLANES),
+        "axes": {
+            "state": list(STATE_NAMES),
+            "unit": "natural logarithm of the ratio to the untanned state",
+            "untanned": table.axes.untanned.tolist(),
+            "basis": table.axes.basis.tolist(),
+            "knots": [axis.tolist() for axis in table.axes.knots],
+        },
+        "checksum": _checksum(pixels),
+        "provenance": table.provenance,
+    }
+    return pixels, json.dumps(header)
+
+
+def from_pixels(pixels: np.ndarray, header_text: str) -> SkinTable:
+    """The table in pixels (rows, columns, 3) from the top row on and its header's JSON text.
+
+    Raises
+    ------
+    InputError
+        If the header is not a table's, is of another version, or does not fit the pixels.
+    """
+    header = _parsed(header_text)
+    try:
+        described = header["axes"]
+        axes = StateAxes(
+            untanned=np.array(described["untanned"], dtype=float),
+            basis=np.array(described["basis"], dtype=float),
+            knots=tuple(np.array(axis, dtype=float) for axis in described["knots"]),
+        )
+        planes, provenance = header["planes"], header["provenance"]
+        checksum = header["checksum"]
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"the table's header is incomplete: {error!r}.") from error
+    _check_axes(axes)
+    if planes != list(PLANES):
+        raise InputError(f"the table's planes are {planes}; expected {list(PLANES)}.")
+    pixels = np.ascontiguousarray(pixels, dtype=np.float32)
+    rows = len(PLANES) * int(np.prod(axes.shape[1:]))
+    if pixels.shape != (rows, axes.shape[0], 3):
+        raise InputError(
+            f"the table's image has shape {pixels.shape}; its header describes "
+            f"{(rows, axes.shape[0], 3)}."
+        )
+    if _checksum(pixels) != checksum:
+        raise InputError("the table's pixels do not match the checksum in its header.")
+    stacked = pixels.astype(float).reshape(len(PLANES), *axes.shape[:0:-1], axes.shape[0], 3)
+    values = stacked.transpose(*range(len(axes.shape), 0, -1), 0, stacked.ndim - 1)
+    return SkinTable(axes=axes, values=np.ascontiguousarray(values), provenance=provenance)
+
+
+def _parsed(header_text: str) -> dict:
+    try:
+        header = json.loads(header_text)
+    except json.JSONDecodeError as error:
+        raise InputError(f"the table's header is not JSON: {error}.") from error
+    if not isinstance(header, dict) or header.get("format") != FORMAT:
+        raise InputError(f"the file is not a {FORMAT}.")
+    version = header.get("format_version")
+    if version != FORMAT_VERSION:
+        raise InputError(
+            f"the table has format version {version}; this program reads {FORMAT_VERSION}."
+        )
+    return header
+
+
+def _check_axes(axes: StateAxes) -> None:
+    ascending = all(
+        axis.ndim == 1 and axis.size and np.all(np.diff(axis) > 0) and np.all(np.isfinite(axis))
+        for axis in axes.knots
+    )
+    fits = axes.untanned.shape == (4,) and axes.basis.shape == (4, len(axes.knots))
+    finite = np.all(np.isfinite(axes.basis)) and np.all(axes.untanned > 0)
+    if not (axes.knots and ascending and fits and finite):
+        raise InputError("the table's axes are not four positive numbers, a basis and knots.")
+
+
+def _checksum(pixels: np.ndarray) -> str:
+    return hashlib.sha256(pixels.astype("<f4").tobytes()).hexdigest()
+
+
+def header_text(path: Path) -> str:
+    """The JSON text in the header of a table's EXR file, read without any image library.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is no EXR, or has no such attribute.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
+    if data[:4] != b"\x76\x2f\x31\x01":
+        raise InputError(f"{path} is not an OpenEXR file.")
+    position = 8
+    while position < len(data) and data[position] != 0:
+        end_of_name = data.find(b"\0", position)
+        end_of_type = data.find(b"\0", end_of_name + 1)
+        if end_of_name < 0 or end_of_type < 0 or end_of_type + 5 > len(data):
+            break
+        (size,) = struct.unpack_from("<i", data, end_of_type + 1)
+        start = end_of_type + 5
+        if size < 0 or start + size > len(data):
+            break
+        if data[position:end_of_name] == HEADER_ATTRIBUTE.encode():
+            return data[start : start + size].decode("utf-8", errors="replace")
+        position = start + size
+    raise InputError(f"{path} is an OpenEXR file but not a {FORMAT}.")

@@ -1,0 +1,1 @@
+"""Builds, checks and writes look-up tables of skin over its tanning states."""

@@ -1,0 +1,65 @@
+"""Writing and reading a `SkinTable` as an EXR file with OpenImageIO (layout: `hylios.table`)."""
+
+import os
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio
+
+from hylios.errors import InputError
+from hylios.table import HEADER_ATTRIBUTE, SkinTable, from_pixels, header_text, to_pixels
+
+
+def write_table(path: Path, table: SkinTable) -> None:
+    """Write a table beside its target and move it there, so that no half file is ever seen.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    pixels, header = to_pixels(table)
+    specification = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.FLOAT)
+    specification.attribute("compression", "zip")
+    specification.attribute("Software", table.provenance.get("software", "lut_builder"))
+    specification.attribute(HEADER_ATTRIBUTE, header)
+    try:
+        handle, name = tempfile.mkstemp(suffix=".exr", dir=path.parent, prefix=f".{path.stem}-")
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be written: {error.strerror}.") from error
+    os.close(handle)
+    beside = Path(name)
+    try:
+        output = oiio.ImageOutput.create(name)
+        if not (output.open(name, specification) and output.write_image(pixels)):
+            raise InputError(f"the table {path} cannot be written: {output.geterror()}.")
+        output.close()
+        beside.chmod(0o666 & ~_umask())
+        os.replace(beside, path)
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be written: {error.strerror}.") from error
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def read_table(path: Path) -> SkinTable:
+    """Read a table.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not a table.
+    """
+    header = header_text(path)
+    image = oiio.ImageBuf(str(path))
+    pixels = image.get_pixels(oiio.FLOAT)
+    if image.has_error or pixels is None:
+        raise InputError(f"the table {path} cannot be read: {image.geterror()}.")
+    return from_pixels(np.asarray(pixels), header)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

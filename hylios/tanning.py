@@ -127,7 +127,7 @@ class Exposures:
         doses = np.asarray(self.doses, dtype=float)
         if hours.ndim != 1 or doses.ndim < 1 or doses.shape[-1] != hours.size:
             raise InputError(
-                f"doses have shape {doses.shape}; their last axis must match the {hours.size} hours."
+                f"doses have shape {doses.shape}; the last axis must match the {hours.size} hours."
             )
         if hours.size and not (np.all(hours >= 0) and np.all(hours == np.floor(hours))):
             raise InputError(f"hours of exposure are {hours.tolist()}; allowed are whole, from 0.")

@@ -5,7 +5,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import OpenImageIO as oiio
+import OpenImageIO as oiio  # noqa: N813 (its own documentation calls it so)
 
 from hylios.errors import InputError
 from hylios.table import HEADER_ATTRIBUTE, SkinTable, from_pixels, header_text, to_pixels

@@ -1,0 +1,64 @@
+"""Colour of a reflectance spectrum: CIE 1931 2 degree observer, D65, with colour-science."""
+
+import warnings
+from functools import cache
+
+import numpy as np
+
+with warnings.catch_warnings():  # it warns that it cannot plot without matplotlib
+    warnings.simplefilter("ignore")
+    import colour
+
+STEP_NM = 5.0
+
+
+@cache
+def _observer_under_daylight() -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths (N,) in nm and the weights of XYZ (3, N), summing to 1 for Y."""
+    shape = colour.SpectralShape(360.0, 780.0, STEP_NM)
+    observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"].copy().align(shape)
+    daylight = colour.SDS_ILLUMINANTS["D65"].copy().align(shape)
+    weights = np.asarray(observer.values).T * np.asarray(daylight.values)
+    return np.asarray(observer.wavelengths), weights / weights[1].sum()
+
+
+def xyz_weights(wavelengths: np.ndarray) -> np.ndarray:
+    """Weights (3, W) that turn reflectance at the given wavelengths into XYZ under D65.
+
+    Reflectance is taken as linear between the wavelengths and constant beyond them; a white
+    diffuser has Y = 1.
+    """
+    wavelengths = np.asarray(wavelengths, dtype=float)
+    grid, weights = _observer_under_daylight()
+    hats = np.array([np.interp(grid, wavelengths, row) for row in np.eye(wavelengths.size)])
+    return weights @ hats.T
+
+
+def rec709_weights(wavelengths: np.ndarray) -> np.ndarray:
+    """Weights (3, W) that turn reflectance into linear Rec.709 under D65."""
+    matrix = np.asarray(colour.RGB_COLOURSPACES["ITU-R BT.709"].matrix_XYZ_to_RGB)
+    weights = matrix @ xyz_weights(wavelengths)
+    # The observer's white and the colour space's differ in the fourth digit: white is white.
+    return weights / weights.sum(axis=1, keepdims=True)
+
+
+def linear_rec709(wavelengths: np.ndarray, reflectance: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 (..., 3) of reflectance (..., W) under D65."""
+    return np.asarray(reflectance) @ rec709_weights(wavelengths).T
+
+
+def srgb(linear: np.ndarray) -> np.ndarray:
+    """sRGB (..., 3), 0 to 1, of linear Rec.709; what lies outside is cut."""
+    return np.asarray(colour.models.eotf_inverse_sRGB(np.clip(linear, 0.0, 1.0)))
+
+
+def lab(linear: np.ndarray) -> np.ndarray:
+    """CIE L*a*b* (..., 3) under D65 of linear Rec.709."""
+    space = colour.RGB_COLOURSPACES["ITU-R BT.709"]
+    xyz = np.asarray(linear) @ np.asarray(space.matrix_RGB_to_XYZ).T
+    return np.asarray(colour.XYZ_to_Lab(xyz, np.asarray(space.whitepoint)))
+
+
+def difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """CIEDE2000 (...) between two arrays of linear Rec.709 (..., 3)."""
+    return np.asarray(colour.delta_E(lab(first), lab(second), method="CIE 2000"))

@@ -1,0 +1,173 @@
+"""Building a table: the light model at every knot of a skin's tanning states."""
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+import hylios
+from hylios.colour import rec709_weights
+from hylios.profile import burley_width
+from hylios.specimen import Specimen, tanned
+from hylios.spectra import estimates_within, figures
+from hylios.table import SkinTable, StateAxes
+from hylios.transport.simulate import DISTANCE_EDGES, Spectrum, spectrum
+from lut_builder.states import Skin, choose_axes
+
+BANDS_NM = (365.0, 1100.0, 1650.0)
+"""The thesis's wavelengths in the ultraviolet and the infrared (figures 6.8 to 6.11)."""
+
+ANGLE = 8.0
+"""Of incidence, in degrees, as reflectance is measured."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How accurately a table is built.
+
+    Attributes
+    ----------
+    knots : tuple of int
+        Numbers of knots on the principal axes of the tanning states.
+    step : float
+        Spacing in nm of the wavelengths from 400 to 700 nm.
+    rays : int
+        Per wavelength and state.
+    """
+
+    knots: tuple[int, ...]
+    step: float
+    rays: int
+
+    @property
+    def wavelengths(self) -> np.ndarray:
+        """The visible ones, then `BANDS_NM`."""
+        return np.concatenate([np.arange(400.0, 700.0 + 0.5 * self.step, self.step), BANDS_NM])
+
+    @property
+    def states(self) -> int:
+        """Number of knots in all."""
+        return int(np.prod(self.knots))
+
+    @property
+    def total_rays(self) -> int:
+        """Rays of a whole table."""
+        return self.states * self.wavelengths.size * self.rays
+
+
+PRESETS = {
+    "small": Settings(knots=(7, 2, 1), step=25.0, rays=30_000),
+    "standard": Settings(knots=(9, 3, 2), step=20.0, rays=100_000),
+}
+
+
+@dataclass(frozen=True)
+class Appearance:
+    """What a spectrum looks like: `hylios.table.PLANES` and their noise.
+
+    Attributes
+    ----------
+    values : (len(PLANES), 3) array
+    colour_covariance : (3, 3) array
+        Of the total colour's Monte Carlo error, linear Rec.709.
+    """
+
+    values: np.ndarray
+    colour_covariance: np.ndarray
+
+
+def appearance(result: Spectrum) -> Appearance:
+    """Colour, band reflectance and profile width of a spectrum at `Settings.wavelengths`.
+
+    The profile of a colour channel adds those of the wavelengths that lift the channel, weighted
+    as they do; wavelengths that lower it (the colour space's negative lobes) are left out.
+    """
+    visible = slice(0, result.wavelengths.size - len(BANDS_NM))
+    weights = rec709_weights(result.wavelengths[visible])
+    exits = np.maximum(weights, 0.0) @ result.exit_counts[visible]
+    planes = (
+        weights @ result.subsurface[visible],
+        weights @ result.total[visible],
+        result.total[visible.stop :],
+        [_width(row) for row in exits],
+    )
+    error = result.standard_error[visible]
+    return Appearance(np.array(planes), (weights * error**2) @ weights.T)
+
+
+def _width(exits: np.ndarray) -> float:
+    """Burley's d in mm; where no light comes out of the skin any width will do."""
+    return burley_width(DISTANCE_EDGES, exits) if exits.sum() > 0 else DISTANCE_EDGES[1]
+
+
+def tanned_appearance(
+    specimen: Specimen,
+    state: np.ndarray,
+    settings: Settings,
+    seed: int,
+    threads: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> Appearance:
+    """Appearance of a specimen in a tanning state (4,) by direct simulation."""
+    result = spectrum(
+        tanned(specimen, state[:3], state[3]),
+        settings.wavelengths,
+        angle=ANGLE,
+        rays=settings.rays,
+        seed=seed,
+        threads=threads,
+        progress=progress,
+    )
+    return appearance(result)
+
+
+def build(
+    made_for: Skin,
+    settings: Settings,
+    *,
+    seed: int = 1,
+    threads: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> SkinTable:
+    """Build a skin's table.
+
+    All states use the same random numbers, so that their noise is alike and a tan over time is
+    smooth. `progress` is told the rays of each piece of work as it ends.
+    """
+    axes = choose_axes(made_for, settings.knots)
+    states = axes.knot_states().reshape(-1, 4)
+    entries = [
+        tanned_appearance(made_for.specimen, state, settings, seed, threads, progress)
+        for state in states
+    ]
+    values = np.array([entry.values for entry in entries])
+    noise = np.mean([np.diag(entry.colour_covariance) for entry in entries], axis=0)
+    return SkinTable(
+        axes=axes,
+        values=values.reshape(*axes.shape, *values.shape[1:]),
+        provenance=_provenance(made_for, settings, seed, axes, np.sqrt(noise)),
+    )
+
+
+def _provenance(
+    made_for: Skin, settings: Settings, seed: int, axes: StateAxes, noise: np.ndarray
+) -> dict:
+    wavelengths = settings.wavelengths
+    return {
+        "software": f"skin-tan {hylios.__version__}",
+        "specimen": made_for.specimen.name,
+        "specimen_parameters": asdict(made_for.specimen),
+        "pigmentation": made_for.pigmentation,
+        "mmd_sed": made_for.mmd,
+        "med_sed": made_for.med,
+        "solver": "random walk",
+        "wavelengths_nm": wavelengths[: -len(BANDS_NM)].tolist(),
+        "bands_nm": list(BANDS_NM),
+        "angle_deg": ANGLE,
+        "rays": settings.rays,
+        "seed": seed,
+        "colour": "linear Rec.709, D65, CIE 1931 2 degree",
+        "profile_width_unit": "mm",
+        "colour_standard_error": noise.tolist(),
+        "estimated_figures": estimates_within(figures(), wavelengths),
+    }

@@ -1,0 +1,134 @@
+"""Which tanning states a skin can reach, and the axes and knots that span them.
+
+In the logarithm of (melanin of three layers, thickness) relative to the untanned skin, the states
+that sunshine can bring about lie near a curved sheet; its principal axes are the table's.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.specimen import Specimen
+from hylios.table import StateAxes
+from hylios.tanning import (
+    PIGMENTATIONS,
+    Exposures,
+    MelaninDynamics,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+    simulate,
+)
+
+DAYS = 60
+MOST_EXPOSURES = 11
+LEAST_DOSE, MOST_DOSE = 0.35, 10.5
+"""Of the random schedules: days, exposures, and doses as multiples of the MMD."""
+
+MARGIN = 0.05
+"""How far the outermost knots lie beyond the states seen, as a share of their span."""
+
+
+@dataclass(frozen=True)
+class Skin:
+    """A specimen with the way it tans: what a table is made for.
+
+    Attributes
+    ----------
+    specimen : Specimen
+    pigmentation : str
+        Set of table 6.4: low, intermediate or high.
+    mmd, med : float
+        Minimal melanogenesis and erythema dose in SED.
+    """
+
+    specimen: Specimen
+    pigmentation: str
+    mmd: float
+    med: float
+
+    @property
+    def dynamics(self) -> MelaninDynamics:
+        """Parameters of the melanin dynamics."""
+        return PIGMENTATIONS[self.pigmentation]
+
+
+USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
+"""Tanning set of each specimen, by the caption of table 6.1."""
+
+
+def skin(
+    specimen: Specimen,
+    pigmentation: str | None = None,
+    mmd: float | None = None,
+    med: float | None = None,
+) -> Skin:
+    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2."""
+    level = min(max(specimen.pigmentation, 0.013), 0.43)
+    return Skin(
+        specimen=specimen,
+        pigmentation=pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low"),
+        mmd=mmd or minimal_melanogenesis_dose(level),
+        med=med or minimal_erythema_dose(level),
+    )
+
+
+def reachable_states(made_for: Skin, schedules: int, seed: int) -> np.ndarray:
+    """States (N, 4) that random schedules of sunshine lead through, every six hours of 60 days.
+
+    Each schedule has 1 to 11 exposures at random hours, each of 0.35 to 10.5 MMD.
+    """
+    random = np.random.default_rng(seed)
+    hours = 24 * DAYS
+    doses = np.zeros((schedules, hours))
+    for schedule in doses:
+        exposures = random.integers(1, MOST_EXPOSURES + 1)
+        when = random.choice(hours, exposures, replace=False)
+        schedule[when] = made_for.mmd * random.uniform(LEAST_DOSE, MOST_DOSE, exposures)
+    history = simulate(
+        Exposures(np.arange(hours), doses),
+        made_for.dynamics,
+        mmd=made_for.mmd,
+        med=made_for.med,
+        hours=hours,
+    )
+    return history.states[:, ::6].reshape(-1, 4)
+
+
+def untanned_state(made_for: Skin) -> np.ndarray:
+    """The state (4,) without sun."""
+    steady = made_for.dynamics.steady_state()
+    return np.append(steady / steady.sum(), 1.0)
+
+
+def choose_axes(made_for: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
+    """Principal axes of the reachable states with the given numbers of knots.
+
+    Knots lie evenly from the smallest to the largest coordinate seen, moved so that the untanned
+    skin, at 0 on every axis, is one of them.
+    """
+    states = reachable_states(made_for, 400, seed)
+    untanned = untanned_state(made_for)
+    _, _, directions = np.linalg.svd(np.log(states / untanned), full_matrices=False)
+    basis = directions[: len(knots)].T
+    basis = basis * np.sign(basis.sum(axis=0))
+    coordinates = np.log(states / untanned) @ basis
+    return StateAxes(
+        untanned=untanned,
+        basis=basis,
+        knots=tuple(
+            _knots(coordinates[:, axis].min(), coordinates[:, axis].max(), count)
+            for axis, count in enumerate(knots)
+        ),
+    )
+
+
+def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
+    """Knots over [lowest, highest] and a margin, evenly spaced on either side of 0, one at 0."""
+    margin = MARGIN * (highest - lowest)
+    low, high = min(lowest, 0.0) - margin, max(highest, 0.0) + margin
+    if count < 3:
+        return np.sort([0.0, high if high >= -low else low][:count])
+    below = min(max(round((count - 1) * -low / (high - low)), 1), count - 2)
+    return np.concatenate(
+        [np.linspace(low, 0.0, below + 1), np.linspace(0.0, high, count - below)[1:]]
+    )

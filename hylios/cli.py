@@ -57,6 +57,11 @@ def _parser() -> argparse.ArgumentParser:
     light.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
     light.add_argument("--rays", type=int, default=100_000, help="per wavelength")
     light.add_argument("--seed", type=int, default=1)
+    light.add_argument(
+        "--as-printed",
+        action="store_true",
+        help="walk every path inside a melanosome (same model, slower)",
+    )
     light.add_argument("--threads", type=int, help="default: all cores")
 
     tan = commands.add_parser("tan", help="melanin and thickness over time")
@@ -91,6 +96,7 @@ def _reflectance(asked: argparse.Namespace) -> None:
         threads=asked.threads,
         known=known,
         chosen=named_values(asked.reading, "a reading"),
+        as_printed=asked.as_printed,
     )
     for line in estimates_within(known, result.wavelengths):
         print(f"note: {line}", file=sys.stderr)

@@ -26,9 +26,6 @@ FIBRE_RADIUS, FIBRE_VOLUME, FIBRE_INDEX_RATIO = 100e-7, 0.22, 1.127
 SOLID_MELANIN = 1400.0
 """Density of solid melanin in mg/mL, for the reading `colloidal_melanin = solid`."""
 
-SPHERE_PACKING = 0.64
-"""Volume fraction of randomly packed bodies, for the reading `complex_content = packed`."""
-
 MELANOSOME_ANGLE = 5.0
 """Mean scattering angle of melanosomes in degrees, falling to 0 from 780 to 1300 nm (4.2.1)."""
 
@@ -52,7 +49,9 @@ READINGS: Mapping[str, Reading] = MappingProxyType(
             ("as_in_melanosomes", "solid"), "concentration of melanin outside the melanosomes"
         ),
         "complex_content": Reading(
-            ("printed", "packed"), "v in 4.3 for complexes: theirs, or that of their melanosomes"
+            ("printed", "packed"),
+            "v in 4.3 for complexes: the melanosome content as it is, or the volume of complexes that "
+            "hold it if each is filled with n_m melanosomes",
         ),
         "complex_melanosomes": Reading(
             ("chord", "diameter"), "melanosomes met in a complex: those along the chord, or n_m"
@@ -69,7 +68,9 @@ READINGS: Mapping[str, Reading] = MappingProxyType(
         "rayleigh_denominator": Reading(
             ("printed", "plus_two"), "eta^2 + 1 in 4.7, or Rayleigh's eta^2 + 2"
         ),
-        "inner_fresnel": Reading(("on", "off"), "reflection where two layers meet"),
+        "inner_fresnel": Reading(
+            ("on", "off"), "Fresnel reflection and refraction where two layers meet"
+        ),
         "floor": Reading(
             ("normal", "mirrored"), "diffuse about the dermal floor's normal or the mirrored ray"
         ),
@@ -105,6 +106,8 @@ class Layer:
     and `semi_major` the melanosomes' half axes, `complex_radius` that of a complex or 0 where
     melanosomes are single, `melanin_absorption` the coefficient inside a melanosome. `rayleigh`
     and `scattering` (Henyey-Greenstein with mean cosine `anisotropy`) are scattering coefficients.
+    `survival` is the probability of leaving one melanosome unabsorbed where that is tabulated;
+    negative, the default, has every path inside a melanosome walked.
     """
 
     thickness: float
@@ -118,6 +121,7 @@ class Layer:
     rayleigh: float = 0.0
     scattering: float = 0.0
     anisotropy: float = 0.0
+    survival: float = -1.0
 
 
 @dataclass(frozen=True)
@@ -340,7 +344,8 @@ def _epidermal_layer(
     ] * semi_major
     content = 0.01 * getattr(specimen, f"{part}_melanosomes")
     if radius > 0.0 and decided["complex_content"] == "packed":
-        content = min(content / SPHERE_PACKING, 1.0)
+        filled = (radius / semi_minor) * semi_minor**2 * semi_major / radius**3
+        content = min(content / filled, 1.0)
     return Layer(
         thickness=getattr(specimen, f"{part}_thickness"),
         refractive_index=refractive_index(specimen, "epidermis", wavelength, known),

@@ -56,8 +56,8 @@ class Settings:
 
 
 PRESETS = {
-    "small": Settings(knots=(7, 2, 1), step=25.0, rays=30_000),
-    "standard": Settings(knots=(9, 3, 2), step=20.0, rays=100_000),
+    "small": Settings(knots=(9, 2, 1), step=25.0, rays=50_000),
+    "standard": Settings(knots=(11, 3, 2), step=20.0, rays=60_000),
 }
 
 

@@ -123,12 +123,17 @@ def choose_axes(made_for: Skin, knots: tuple[int, ...], seed: int = 0) -> StateA
 
 
 def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
-    """Knots over [lowest, highest] and a margin, evenly spaced on either side of 0, one at 0."""
+    """Knots over [lowest, highest], evenly spaced on either side of 0, with one at 0.
+
+    A side that is hardly reached at all, such as less melanin than the untanned skin's, gets none.
+    """
     margin = MARGIN * (highest - lowest)
-    low, high = min(lowest, 0.0) - margin, max(highest, 0.0) + margin
+    low = lowest - margin if lowest < -margin else 0.0
+    high = highest + margin if highest > margin else 0.0
     if count < 3:
         return np.sort([0.0, high if high >= -low else low][:count])
-    below = min(max(round((count - 1) * -low / (high - low)), 1), count - 2)
-    return np.concatenate(
-        [np.linspace(low, 0.0, below + 1), np.linspace(0.0, high, count - below)[1:]]
-    )
+    below = round((count - 1) * -low / (high - low))
+    if low < 0.0 < high:
+        below = min(max(below, 1), count - 2)
+    parts = [np.linspace(low, 0.0, below + 1), np.linspace(0.0, high, count - below)[1:]]
+    return np.concatenate(parts)

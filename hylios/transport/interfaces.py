@@ -69,15 +69,15 @@ def meet_surface(state, ray, index_from, index_to, roughness):
 
 
 @njit
-def meet_interface(state, ray, index_from, index_to, reflecting):
-    """Reflection or refraction at a flat interface; without `reflecting` only total reflection.
+def meet_interface(state, ray, index_from, index_to):
+    """Reflection or refraction at a flat interface.
 
     Returns whether the ray crossed, and its new direction.
     """
     if index_from == index_to:
         return True, ray
     reflectance, beyond = fresnel(abs(ray[2]), index_from, index_to)
-    if reflectance >= 1.0 or (reflecting and uniform(state) < reflectance):
+    if uniform(state) < reflectance:
         return False, (ray[0], ray[1], -ray[2])
     ratio = index_from / index_to
     return True, (ratio * ray[0], ratio * ray[1], math.copysign(beyond, ray[2]))

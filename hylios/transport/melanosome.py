@@ -35,12 +35,13 @@ def on_ball(ray, axis, half_axes):
 
 
 @njit
-def survives_melanosome(state, ray, axis, point, half_axes, absorption, inside, outside, bent):
-    """Whether a ray that enters a spheroid at a point of the unit ball leaves it unabsorbed.
+def path_in_melanosome(state, ray, axis, point, half_axes, free, inside, outside, bent):
+    """Length of a ray's path through a spheroid that it enters at a point of the unit ball.
 
-    `absorption` is the coefficient of melanin in there, `inside` and `outside` are refractive
-    indices. The ray goes in straight on, or refracted if `bent`; wherever it is reflected inside,
-    its direction is spread by the cosine distribution until it points inwards.
+    Ends where the path would exceed `free`, the length that the absorber allows. `inside` and
+    `outside` are refractive indices. The ray goes in straight on, or refracted if `bent`; where
+    it is reflected inside, its direction is spread by the cosine distribution until it points
+    inwards.
     """
     shrink = (1.0 / half_axes[0], 1.0 / half_axes[1])
     if bent:
@@ -49,21 +50,36 @@ def survives_melanosome(state, ray, axis, point, half_axes, absorption, inside, 
         reflectance, beyond = fresnel(cosine, outside, inside)
         if reflectance < 1.0:
             ray = unit(refracted(ray, normal, cosine, beyond, outside / inside))
+    path = 0.0
     while True:
         on_unit = stretched(ray, axis, shrink[0], shrink[1])
         chord = -2.0 * dot(point, on_unit) / dot(on_unit, on_unit)
-        if free_path(state, absorption) < chord:
-            return False
+        path += chord
+        if path > free:
+            return path
         point = unit(added(point, chord, on_unit))
         normal = unit(stretched(point, axis, shrink[0], shrink[1]))
         cosine = dot(ray, normal)
         reflectance, _ = fresnel(min(max(cosine, 0.0), 1.0), inside, outside)
         if uniform(state) >= reflectance:
-            return True
+            return path
         mirrored = added(ray, -2.0 * cosine, normal)
         ray = turned(state, mirrored, lambertian_cosine(state))
         while dot(ray, normal) >= 0.0:
             ray = turned(state, mirrored, lambertian_cosine(state))
+
+
+@njit
+def survives_melanosome(state, ray, axis, point, half_axes, absorption, inside, outside, bent):
+    """Whether a ray that enters a spheroid at a point of the unit ball leaves it unabsorbed.
+
+    `absorption` is the coefficient of melanin in there. The length that it allows is drawn once:
+    drawing it anew for every chord, as the thesis does, is the same, for it has no memory.
+    """
+    free = free_path(state, absorption)
+    return free >= path_in_melanosome(
+        state, ray, axis, point, half_axes, free, inside, outside, bent
+    )
 
 
 @njit

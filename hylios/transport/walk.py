@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from hylios.tissue import Stack
+from hylios.transport.generator import uniform
 from hylios.transport.interfaces import meet_interface, meet_surface
 from hylios.transport.melanosome import (
     facing_point,
@@ -51,6 +52,7 @@ COLUMNS = (
     "rayleigh",
     "scattering",
     "anisotropy",
+    "survival",
 )
 (
     TOP,
@@ -65,6 +67,7 @@ COLUMNS = (
     RAYLEIGH,
     SCATTERING,
     ANISOTROPY,
+    SURVIVAL,
 ) = range(len(COLUMNS))
 
 
@@ -135,7 +138,7 @@ def walk(layers, surroundings, readings, sine, cosine, state, outcome, end_layer
 @njit
 def _walk_one(layers, surroundings, readings, ray, state):
     roughness, above, below, melanin_index, angle = surroundings
-    floor, by_diameter, bent, exponential, every, reflecting, mirrored = readings
+    floor, by_diameter, bent, exponential, every, optical, mirrored = readings
     position = (0.0, 0.0, 0.0)
     crossed, ray = meet_surface(state, ray, above, layers[0, INDEX], roughness)
     if not crossed:
@@ -179,6 +182,11 @@ def _walk_one(layers, surroundings, readings, ray, state):
             if layer[COMPLEX_RADIUS] > 0.0:
                 across = 1.0 if by_diameter else -dot(point, ray)
                 count = int(across * layer[COMPLEX_RADIUS] / layer[SEMI_MINOR])
+            else:
+                count = 1
+            if layer[SURVIVAL] >= 0.0:
+                survived = uniform(state) < layer[SURVIVAL] ** count
+            elif layer[COMPLEX_RADIUS] > 0.0:
                 survived = survives_complex(
                     state, ray, count, half_axes, layer[MELANIN], melanin_index, layer[INDEX], bent
                 )
@@ -209,9 +217,9 @@ def _walk_one(layers, surroundings, readings, ray, state):
             position = (position[0], position[1], layer[BOTTOM] if down else layer[TOP])
             beyond = here + 1 if down else here - 1
             if 0 <= beyond <= last:
-                crossed, ray = meet_interface(
-                    state, ray, layer[INDEX], layers[beyond, INDEX], reflecting
-                )
+                crossed = True
+                if optical:
+                    crossed, ray = meet_interface(state, ray, layer[INDEX], layers[beyond, INDEX])
                 here = beyond if crossed else here
             elif not down:
                 crossed, ray = meet_surface(state, ray, layer[INDEX], above, roughness)
@@ -220,7 +228,7 @@ def _walk_one(layers, surroundings, readings, ray, state):
             elif floor:
                 ray = _leave_floor(state, ray, mirrored)
             else:
-                crossed, ray = meet_interface(state, ray, layer[INDEX], below, True)
+                crossed, ray = meet_interface(state, ray, layer[INDEX], below)
                 if crossed:
                     return TRANSMITTED, -1, position, ray
     return LOST, here, position, ray

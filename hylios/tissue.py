@@ -50,8 +50,8 @@ READINGS: Mapping[str, Reading] = MappingProxyType(
         ),
         "complex_content": Reading(
             ("printed", "packed"),
-            "v in 4.3 for complexes: the melanosome content as it is, or the volume of complexes that "
-            "hold it if each is filled with n_m melanosomes",
+            "v in 4.3 for complexes: the melanosome content as it is, or the volume of the "
+            "complexes that hold it with n_m melanosomes in each",
         ),
         "complex_melanosomes": Reading(
             ("chord", "diameter"), "melanosomes met in a complex: those along the chord, or n_m"

@@ -27,3 +27,11 @@ bench: environment
 
 package: environment
 	@$(BIN)/python -m blender_addon.package
+
+# The tables that the add-on carries; each takes minutes.
+TABLES := S1 S2 S3 S4
+.PHONY: tables
+tables: environment
+	@for name in $(TABLES); do \
+	    $(BIN)/lut-builder build --specimen $$name --force -o blender_addon/tables/$$name.exr || exit; \
+	done

@@ -198,8 +198,8 @@ def simulate(
     Returns
     -------
     TanningHistory
-        With shapes (hours + 1,), (..., hours + 1, 3) and (..., hours + 1). Hour 0 is the state
-        without sun even where a dose falls on it: its effect begins at hour 1.
+        With shapes (hours + 1,), (..., hours + 1, 3) and (..., hours + 1). A dose acts from its
+        own hour on; only hour 0 is the state without sun whatever falls on it.
 
     Raises
     ------
@@ -210,15 +210,17 @@ def simulate(
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
     require_range("hours", hours, 0, LONGEST_HOURS)
-    received = _doses_by_hour(exposures, hours)
     shape = exposures.doses.shape[:-1]
+    # Flat even for a single history: numpy's power of arrays and of numbers differ in the last bit.
+    received = _doses_by_hour(exposures, hours)
+    histories = int(np.prod(shape))
 
-    content = np.empty((hours + 1, *shape, 3))
-    depth = np.empty((hours + 1, *shape))
+    content = np.empty((hours + 1, histories, 3))
+    depth = np.empty((hours + 1, histories))
     content[0] = melanin.steady_state()
     depth[0] = thickness.steady_state()
-    melanogenesis = _Signal.none(shape)
-    thickening = _Signal.none(shape)
+    melanogenesis = _Signal.none(histories)
+    thickening = _Signal.none(histories)
     production, extra_production = np.array(melanin.production), np.array(melanin.extra_production)
     transfer, extra_transfer = np.array(melanin.transfer), np.array(melanin.extra_transfer)
 
@@ -242,8 +244,8 @@ def simulate(
 
     return TanningHistory(
         hours=np.arange(hours + 1),
-        melanin=np.moveaxis(content, 0, -2) / melanin.steady_state().sum(),
-        thickness=np.moveaxis(depth, 0, -1) / thickness.steady_state(),
+        melanin=content.swapaxes(0, 1).reshape(*shape, hours + 1, 3) / melanin.steady_state().sum(),
+        thickness=depth.T.reshape(*shape, hours + 1) / thickness.steady_state(),
     )
 
 
@@ -256,8 +258,8 @@ class _Signal:
     signal: np.ndarray
 
     @staticmethod
-    def none(shape) -> "_Signal":
-        return _Signal(np.zeros(shape), np.zeros(shape), np.zeros(shape))
+    def none(histories: int) -> "_Signal":
+        return _Signal(np.zeros(histories), np.zeros(histories), np.zeros(histories))
 
     def next(self, dose, decays: MelaninDynamics | ThicknessDynamics) -> "_Signal":
         energy = dose + self.energy * decays.energy_decay
@@ -267,8 +269,10 @@ class _Signal:
 
 
 def _doses_by_hour(exposures: Exposures, hours: int) -> dict[int, np.ndarray]:
+    """Dose (histories,) of each hour that has one."""
     received: dict[int, np.ndarray] = {}
-    for index, hour in enumerate(exposures.hours):
+    flat = exposures.doses.reshape(int(np.prod(exposures.doses.shape[:-1])), exposures.hours.size)
+    for hour, dose in zip(exposures.hours.tolist(), flat.T, strict=True):
         if hour <= hours:
-            received[int(hour)] = received.get(int(hour), 0.0) + exposures.doses[..., index]
+            received[hour] = received.get(hour, 0.0) + dose
     return received

@@ -31,10 +31,14 @@ def refracted(ray, normal, cosine, beyond, ratio):
     return added(scaled(ray, ratio), ratio * cosine - beyond, normal)
 
 
+FLAT = 1e-6
+"""Roughness up to which a surface is taken as flat: its normals tilt by about as many radians."""
+
+
 @njit
 def surface_normal(state, roughness):
     """A normal of the surface, pointing out of the skin (4.8); straight up where it is flat."""
-    if roughness <= 0.0:
+    if roughness <= FLAT:
         return 0.0, 0.0, -1.0
     slope = surface_slope_squared(state, roughness)
     cosine = 1.0 / math.sqrt(1.0 + slope)

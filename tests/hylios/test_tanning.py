@@ -1,0 +1,205 @@
+"""The tanning model against the thesis, its limits and itself."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hylios.errors import InputError
+from hylios.specimen import SPECIMENS, tanned
+from hylios.tanning import (
+    PIGMENTATIONS,
+    Exposures,
+    ThicknessDynamics,
+    hill,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+    simulate,
+)
+
+
+def one_dose(dose, pigmentation="intermediate", hours=720, mmd=2.89, med=1.7):
+    return simulate(
+        Exposures([0], [dose]), PIGMENTATIONS[pigmentation], mmd=mmd, med=med, hours=hours
+    )
+
+
+@pytest.mark.parametrize("name", list(PIGMENTATIONS))
+def test_steady_states_of_table_6_4_sum_to_one(name):
+    assert PIGMENTATIONS[name].steady_state().sum() == pytest.approx(1.0, abs=3e-4)
+
+
+@pytest.mark.parametrize(
+    ("name", "total"), [("low", 1.098), ("intermediate", 1.097), ("high", 1.096)]
+)
+def test_one_mmd_raises_melanin_by_a_tenth_in_a_week(name, total):
+    """Figure B.1: about 10 % on day 7 after 1 MMD."""
+    history = simulate(Exposures([0], [1.0]), PIGMENTATIONS[name], mmd=1.0, med=1.0, hours=168)
+    assert history.total[168] == pytest.approx(total, abs=6e-4)
+
+
+def test_a_day_at_the_beach():
+    """Figure 6.29: 30 SED, intermediate set: fast rise, broad top near day 10, slow fading."""
+    history = one_dose(30.0)
+    assert history.total.max() == pytest.approx(1.90, abs=0.005)
+    assert 9.0 <= history.hours[history.total.argmax()] / 24.0 <= 10.5
+    assert history.total[-1] == pytest.approx(1.33, abs=0.005)
+
+
+@pytest.mark.parametrize("name", list(PIGMENTATIONS))
+def test_no_dose_no_change_for_a_year(name):
+    history = simulate(Exposures(), PIGMENTATIONS[name], mmd=2.89, med=1.7, hours=8760)
+    assert np.abs(history.total - 1.0).max() < 1e-12
+    assert np.abs(history.melanin - history.melanin[0]).max() < 1e-12
+    assert np.abs(history.thickness - 1.0).max() < 1e-12
+
+
+def test_photoaddition():
+    """Figure 6.21: small doses on successive days add to nearly the response of one large dose,
+    while each alone does little."""
+    dynamics = PIGMENTATIONS["low"]
+    settings_ = {"mmd": 2.89, "med": 1.7, "hours": 960}
+    large = simulate(Exposures([0], [10.0]), dynamics, **settings_).total.max() - 1.0
+    days = 24 * np.arange(4)
+    small = simulate(Exposures(days, np.full(4, 2.5)), dynamics, **settings_).total.max() - 1.0
+    each = simulate(Exposures([0], [2.5]), dynamics, **settings_).total.max() - 1.0
+    assert each == 0.0
+    third = simulate(Exposures([0], [3.4]), dynamics, **settings_).total.max() - 1.0
+    thirds = simulate(Exposures([0, 24, 48], np.full(3, 3.4)), dynamics, **settings_).total.max()
+    assert third < 0.75 * large
+    assert thirds - 1.0 == pytest.approx(large, rel=0.15)
+    assert 0.4 * large < small < large
+
+
+def test_the_threshold_is_one_mmd():
+    below = one_dose(0.999 * 2.89).total
+    at = one_dose(2.89).total
+    assert np.abs(below - 1.0).max() < 1e-12
+    assert at.max() > 1.09
+
+
+def test_hour_by_hour_by_hand():
+    """The first hours after 2 MMD and 2 MED, written out from 5.5 to 5.12 and 5.21 to 5.27."""
+    dynamics = PIGMENTATIONS["intermediate"]
+    history = simulate(Exposures([0], [2.0]), dynamics, mmd=1.0, med=1.0, hours=2)
+    energy, rate, signal = 2.0, 2.0, 2.0
+    response = signal**0.7 / (signal**0.7 + 500.0**0.7)
+    steady = dynamics.steady_state()
+    moved = (0.0250 * response + 0.0051) * steady[0]
+    energy *= 0.98
+    rate = energy + rate * 0.99
+    signal = rate + signal * 0.985
+    response = signal**0.7 / (signal**0.7 + 500.0**0.7)
+    basale = 0.0075 * response + 0.0080 + 0.99 * (steady[0] - moved)
+    assert history.melanin[1, 0] == pytest.approx(basale / steady.sum(), rel=1e-12)
+
+    rate = 2.0 * 0.985 + 2.0 * 0.2
+    signal = rate + 2.0 * 0.98
+    made = 0.1 + 0.025 * signal / (signal + 20.0)
+    assert history.thickness[1] == pytest.approx((made + 0.9) / 1.0, rel=1e-12)
+
+
+def test_thickness_is_bounded_by_its_parameters():
+    """The Hill factor is at most 1: 5.27 cannot pass (production + extra) / (1 - decay)."""
+    days = 24 * np.arange(60)
+    history = simulate(
+        Exposures(days, np.full(60, 1e6)), PIGMENTATIONS["low"], mmd=1.0, med=1.0, hours=1440
+    )
+    model = ThicknessDynamics()
+    bound = (model.production + model.extra_production) / model.production
+    assert history.thickness.max() <= bound + 1e-12
+    assert bound == pytest.approx(1.25)
+
+
+def test_many_histories_at_once_equal_each_alone():
+    random = np.random.default_rng(3)
+    hours = np.sort(random.choice(400, 6, replace=False))
+    doses = random.uniform(0.0, 30.0, (7, 6))
+    dynamics = PIGMENTATIONS["high"]
+    together = simulate(Exposures(hours, doses), dynamics, mmd=5.0, med=3.0, hours=500)
+    for index in range(7):
+        alone = simulate(Exposures(hours, doses[index]), dynamics, mmd=5.0, med=3.0, hours=500)
+        assert np.array_equal(together.melanin[index], alone.melanin)
+        assert np.array_equal(together.thickness[index], alone.thickness)
+
+
+def test_two_doses_in_one_hour_are_one_dose():
+    dynamics = PIGMENTATIONS["low"]
+    two = simulate(Exposures([5, 5], [4.0, 6.0]), dynamics, mmd=2.89, med=1.7, hours=200)
+    one = simulate(Exposures([5], [10.0]), dynamics, mmd=2.89, med=1.7, hours=200)
+    assert np.array_equal(two.melanin, one.melanin)
+
+
+def test_a_later_dose_changes_nothing_before_it():
+    dynamics = PIGMENTATIONS["low"]
+    early = simulate(Exposures([0], [10.0]), dynamics, mmd=2.89, med=1.7, hours=100)
+    both = simulate(Exposures([100, 0], [9.0, 10.0]), dynamics, mmd=2.89, med=1.7, hours=200)
+    assert np.array_equal(both.melanin[:100], early.melanin[:100])
+    late = simulate(Exposures([0, 500], [10.0, 9.0]), dynamics, mmd=2.89, med=1.7, hours=100)
+    assert np.array_equal(late.melanin, early.melanin)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    doses=st.lists(st.sampled_from([0.0, 1e-300, 1e-3, 1.0, 30.0, 1e6, 1e300]), max_size=20),
+    name=st.sampled_from(list(PIGMENTATIONS)),
+)
+def test_extreme_doses_give_bounded_states(doses, name):
+    history = simulate(
+        Exposures(np.arange(len(doses)), doses), PIGMENTATIONS[name], mmd=2.89, med=1.7, hours=100
+    )
+    assert np.all(np.isfinite(history.states))
+    assert np.all(history.states >= 0)
+    assert history.thickness.max() <= 1.25 + 1e-12
+
+
+def test_hill_from_nothing_to_everything():
+    signal = np.array([0.0, 1e-300, 500.0, 1e300])
+    assert np.allclose(hill(signal, 500.0, 0.7), [0.0, 0.0, 0.5, 1.0], atol=1e-15)
+
+
+def test_minimal_doses():
+    """Equations 3.1 and 3.2 at the ends of their range, by hand."""
+    assert minimal_erythema_dose(0.013) == pytest.approx(2.4193, abs=1e-3)
+    assert minimal_melanogenesis_dose(0.43) == pytest.approx(39.155, abs=1e-2)
+    with pytest.raises(InputError, match="pigmentation level is 0.5; allowed is 0.013 to 0.43"):
+        minimal_erythema_dose(0.5)
+
+
+@pytest.mark.parametrize("name", list(SPECIMENS))
+def test_a_state_scales_melanin_and_thickness(name):
+    """5.16: the total of melanin times thickness follows the state, whatever the thickness."""
+    usual = SPECIMENS[name]
+    state = np.array([0.5, 0.9, 0.3])
+    changed = tanned(usual, state, 1.2)
+    before = usual.melanin @ usual.epidermal_thickness
+    after = changed.melanin @ changed.epidermal_thickness
+    assert after == pytest.approx(before * state.sum())
+    assert changed.papillary_thickness == pytest.approx(1.2 * usual.papillary_thickness)
+    inside = 0.01 * usual.basale_melanosomes / usual.melanin[0]
+    assert 0.01 * changed.basale_melanosomes / changed.melanin[0] == pytest.approx(inside)
+
+
+def test_melanin_never_fills_more_than_its_layer():
+    full = tanned(SPECIMENS["S4"], np.array([4.0, 0.1, 0.1]), 1.0)
+    assert full.melanin[0] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("exposures", "sentence"),
+    [
+        (lambda: Exposures([-1], [1.0]), "hours of exposure are"),
+        (lambda: Exposures([0.5], [1.0]), "hours of exposure are"),
+        (lambda: Exposures([0], [-1.0]), "a dose is negative"),
+        (lambda: Exposures([0], [np.nan]), "a dose is negative or not finite"),
+        (lambda: Exposures([0, 1], [1.0]), "the last axis must match"),
+    ],
+)
+def test_bad_exposures_are_named(exposures, sentence):
+    with pytest.raises(InputError, match=sentence):
+        exposures()
+
+
+def test_bad_minimal_dose_is_named():
+    with pytest.raises(InputError, match="MMD is 0 SED; allowed is"):
+        simulate(Exposures(), PIGMENTATIONS["low"], mmd=0.0, med=1.0, hours=1)

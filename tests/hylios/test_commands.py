@@ -1,0 +1,103 @@
+"""The command `hylios`, as a shell sees it."""
+
+import csv
+import io
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from hylios.cli import main
+
+
+def rows(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_reflectance_is_a_spectrum_on_standard_output(capsys):
+    arguments = ["reflectance", "--specimen", "S3", "--set", "papillary_blood=0.5"]
+    arguments += ["--wavelengths", "400:700:100", "--angle", "8", "--rays", "2000", "--seed", "1"]
+    assert main(arguments) == 0
+    printed = capsys.readouterr()
+    header = "wavelength_nm,total,surface,subsurface,absorptance,standard_error"
+    assert printed.out.splitlines()[0] == header
+    table = rows(printed.out)
+    assert [float(row["wavelength_nm"]) for row in table] == [400.0, 500.0, 600.0, 700.0]
+    for row in table:
+        values = {name: float(text) for name, text in row.items()}
+        assert values["total"] == pytest.approx(values["surface"] + values["subsurface"])
+        assert values["total"] + values["absorptance"] == pytest.approx(1.0)
+    assert "ESTIMATE" in printed.err
+    main(arguments)
+    assert capsys.readouterr().out == printed.out
+
+
+def test_a_parameter_and_a_reading_change_the_spectrum(capsys):
+    usual = ["reflectance", "--wavelengths", "550", "--rays", "4000"]
+    outputs = []
+    for more in ([], ["--set", "papillary_blood=60"], ["--reading", "rayleigh=every_collision"]):
+        assert main([*usual, *more]) == 0
+        outputs.append(float(rows(capsys.readouterr().out)[0]["total"]))
+    assert outputs[1] < outputs[0] - 0.05
+    assert outputs[2] > outputs[0] + 0.05
+
+
+def test_tan_prints_every_hour(capsys):
+    arguments = ["tan", "--pigmentation", "intermediate", "--dose", "0:30", "--mmd", "2.89"]
+    assert main([*arguments, "--med", "1.7", "--hours", "240"]) == 0
+    table = rows(capsys.readouterr().out)
+    assert list(table[0]) == ["hour", "basale", "spinosum", "granulosum", "total", "thickness"]
+    assert len(table) == 241
+    assert float(table[0]["total"]) == pytest.approx(1.0)
+    assert float(table[228]["total"]) == pytest.approx(1.90, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ("reflectance --specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4."),
+        ("reflectance --set blood=1", "there is no parameter 'blood'"),
+        ("reflectance --set papillary_blood", "expected NAME=VALUE"),
+        ("reflectance --set papillary_blood=x", "papillary_blood is 'x'; expected a number."),
+        ("reflectance --set papillary_blood=120", "allowed is 0 to 100 %"),
+        ("reflectance --wavelengths 700:400:5", "expected FIRST:LAST:STEP"),
+        ("reflectance --wavelengths 200", "allowed is 250 to 2500 nm"),
+        ("reflectance --angle 91", "allowed is 0 to 89.99 degrees"),
+        ("reflectance --rays 0", "number of rays is 0"),
+        ("reflectance --seed -1", "seed is -1"),
+        ("reflectance --figure keratin=/none.csv", "the figure in /none.csv cannot be read"),
+        ("tan --dose 30", "expected HOUR:SED"),
+        ("tan --dose 0:-3", "a dose is negative"),
+        ("tan --dose 0.5:3", "hours of exposure are"),
+        ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
+        ("tan --hours -1", "hours is -1"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_2(capsys, arguments, sentence):
+    assert main(arguments.split()) == 2
+    printed = capsys.readouterr()
+    assert sentence in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
+
+
+def test_a_closed_pipe_ends_quietly():
+    command = f"{sys.executable} -m hylios.cli tan --hours 20000 | head -n 1"
+    ended = subprocess.run(command, shell=True, capture_output=True, text=True)
+    assert ended.stdout.startswith("hour,")
+    assert ended.stderr == ""
+
+
+def test_the_tanning_command_needs_no_numba():
+    code = (
+        "import sys; sys.modules['numba'] = None; sys.modules['colour'] = None;"
+        "from hylios.cli import main; sys.exit(main(['tan', '--hours', '1']))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+def test_total_of_the_steady_state_is_one(capsys):
+    assert main(["tan", "--hours", "48"]) == 0
+    totals = [float(row["total"]) for row in rows(capsys.readouterr().out)]
+    assert np.allclose(totals, 1.0, atol=1e-9)

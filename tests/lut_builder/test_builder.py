@@ -1,0 +1,208 @@
+"""Tables: which states they span, building, the file, the command."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import OpenImageIO as oiio  # noqa: N813
+import pytest
+
+from hylios.errors import InputError
+from hylios.specimen import SPECIMENS
+from hylios.table import HEADER_ATTRIBUTE, PLANES, header_text, to_pixels
+from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from lut_builder.build import Settings, build, tanned_appearance
+from lut_builder.check import check, skin_of
+from lut_builder.cli import main
+from lut_builder.exr import read_table, write_table
+from lut_builder.states import choose_axes, reachable_states, skin, untanned_state
+
+TINY = Settings(knots=(3, 2), step=60.0, rays=1500)
+
+
+@pytest.fixture(scope="module")
+def tiny():
+    return build(skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7), TINY, seed=1)
+
+
+@pytest.mark.parametrize(
+    ("name", "pigmentation"), [("S1", "low"), ("S3", "intermediate"), ("S4", "high")]
+)
+def test_three_axes_span_the_states_that_can_be_reached(name, pigmentation):
+    """Schedules and times other than those that chose the axes: 0.015 rms in the logarithm is
+    left over three axes, and no state lies far beyond the knots."""
+    made_for = skin(SPECIMENS[name], pigmentation)
+    axes = choose_axes(made_for, (9, 3, 3))
+    states = reachable_states(made_for, 100, seed=99)
+    coordinates = axes.coordinates(states)
+    left = np.log(states / axes.states(coordinates))
+    assert np.sqrt((left**2).sum(axis=1).mean()) < 0.015
+    for axis, knots in enumerate(axes.knots):
+        over = np.maximum(coordinates[:, axis] - knots[-1], knots[0] - coordinates[:, axis])
+        assert over.max() < 0.03
+
+
+@pytest.mark.parametrize("knots", [(1,), (2, 2), (7, 3, 1), (9, 3, 2, 2)])
+def test_the_untanned_skin_is_a_knot(knots):
+    made_for = skin(SPECIMENS["S3"])
+    axes = choose_axes(made_for, knots)
+    assert axes.shape == knots
+    untanned = untanned_state(made_for)
+    states = axes.knot_states().reshape(-1, 4)
+    assert np.abs(states - untanned).max(axis=1).min() < 1e-12
+    assert all(np.all(np.diff(each) > 0) for each in axes.knots)
+
+
+def test_reachable_states_are_those_that_the_issue_of_a_tan_can_be():
+    states = reachable_states(skin(SPECIMENS["S3"], "low"), 50, seed=4)
+    assert states.min() > 0
+    assert states[:, :3].sum(axis=1).max() < 2.2
+    assert states[:, 3].max() < 1.25 + 1e-9
+
+
+def test_an_entry_is_the_simulation_of_its_state(tiny):
+    made_for = skin_of(tiny)
+    state = tiny.axes.knot_states()[2, 1]
+    entry = tanned_appearance(made_for.specimen, state, TINY, seed=1)
+    assert np.array_equal(tiny.values[2, 1], entry.values)
+
+
+def test_a_tan_is_darker_in_every_colour_and_in_the_ultraviolet(tiny):
+    history = simulate(
+        Exposures([0], [30.0]), PIGMENTATIONS["intermediate"], mmd=2.89, med=1.7, hours=240
+    )
+    before, after = (tiny.lookup(history.states[hour]) for hour in (0, 240))
+    for plane in ("subsurface_colour", "total_colour"):
+        row = PLANES.index(plane)
+        assert np.all(after[row] < before[row])
+    assert after[PLANES.index("band_reflectance")][0] < before[PLANES.index("band_reflectance")][0]
+
+
+def test_surface_light_is_what_total_has_more_than_subsurface(tiny):
+    surface = tiny.values[..., 1, :] - tiny.values[..., 0, :]
+    assert np.all((surface > 0.03) & (surface < 0.06))
+
+
+def test_same_seed_same_table_whatever_the_threads(tiny):
+    again = build(skin_of(tiny), TINY, seed=1, threads=1)
+    assert to_pixels(again)[0].tobytes() == to_pixels(tiny)[0].tobytes()
+    other = build(skin_of(tiny), TINY, seed=2)
+    assert to_pixels(other)[0].tobytes() != to_pixels(tiny)[0].tobytes()
+
+
+def test_a_file_holds_the_table_and_says_what_it_is(tiny, tmp_path):
+    path = tmp_path / "skin.exr"
+    write_table(path, tiny)
+    again = read_table(path)
+    assert np.array_equal(again.values, tiny.values.astype(np.float32))
+    assert again.provenance == tiny.provenance
+    image = oiio.ImageInput.open(str(path))
+    assert image.spec().format == oiio.FLOAT
+    assert image.spec().getattribute(HEADER_ATTRIBUTE) == header_text(path)
+    described = json.loads(header_text(path))["provenance"]
+    for key in ("specimen", "wavelengths_nm", "rays", "seed", "software", "colour_standard_error"):
+        assert key in described
+    assert any("ESTIMATE" in line for line in described["estimated_figures"])
+    assert os.listdir(tmp_path) == ["skin.exr"]
+
+
+def test_what_is_no_table_is_refused(tiny, tmp_path):
+    with pytest.raises(InputError, match="cannot be read: No such file"):
+        read_table(tmp_path / "none.exr")
+    text = tmp_path / "text.exr"
+    text.write_text("not an image")
+    with pytest.raises(InputError, match="is not an OpenEXR file"):
+        read_table(text)
+    picture = tmp_path / "picture.exr"
+    oiio.ImageBuf(oiio.ImageSpec(4, 4, 3, oiio.FLOAT)).write(str(picture))
+    with pytest.raises(InputError, match="not a skin tan table"):
+        read_table(picture)
+    write_table(text, tiny)
+    cut = text.read_bytes()
+    for size in (6, 40, 300, len(cut) // 2, len(cut) - 20):
+        text.write_bytes(cut[:size])
+        with pytest.raises(InputError):
+            read_table(text)
+
+
+def test_a_table_that_cannot_be_written_leaves_nothing(tiny, tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        write_table(tmp_path / "no" / "skin.exr", tiny)
+    folder = tmp_path / "skin.exr"
+    folder.mkdir()
+    with pytest.raises(InputError, match="cannot be written"):
+        write_table(folder, tiny)
+    assert os.listdir(tmp_path) == ["skin.exr"]
+
+
+def test_check_finds_a_table_right_and_a_wrong_one_wrong(tiny):
+    """The tiny table's own noise explains most of its error; one darkened by a fifth is found."""
+    honest = check(tiny, count=4, rays=1500, seed=5)
+    assert honest.differences.shape == (4,)
+    assert honest.noise.mean() > 0.3
+    assert 0.1 < honest.noise_share <= 1.0
+    wrong = type(tiny)(tiny.axes, tiny.values * 0.8, tiny.provenance)
+    found = check(wrong, count=4, rays=1500, seed=5)
+    assert found.differences.min() > honest.differences.mean()
+    assert found.noise_share < honest.noise_share
+
+
+def test_the_command_builds_describes_and_checks(tmp_path, capsys):
+    path = tmp_path / "s3.exr"
+    arguments = f"build --specimen S3 --knots 3,2 --step 100 --rays 200 -o {path}".split()
+    assert main(arguments) == 0
+    progress = capsys.readouterr()
+    assert f"wrote {path}" in progress.out
+    assert "100%" in progress.err
+    before = path.read_bytes()
+    assert main(arguments) == 2
+    assert "exists already; --force replaces it" in capsys.readouterr().err
+    assert path.read_bytes() == before
+    assert main([*arguments, "--force"]) == 0
+    assert path.read_bytes() == before
+    capsys.readouterr()
+    assert main(["info", str(path)]) == 0
+    described = capsys.readouterr().out
+    for word in ("specimen: S3", "pigmentation: low", "rays: 200", "ESTIMATE", "axis 2"):
+        assert word in described
+    assert main(["check", str(path), "--states", "2"]) == 0
+    checked = capsys.readouterr().out
+    assert "mean CIEDE2000 between table and simulation:" in checked
+    assert "share of the mean squared difference that is noise:" in checked
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ("build --specimen S9 -o {}/t.exr", "there is no specimen 'S9'"),
+        ("build --knots 3,x -o {}/t.exr", "knots is 'x'; expected a number."),
+        ("build --knots 3,3,3,3,3 -o {}/t.exr", "number of axes is 5; allowed is 1 to 4."),
+        ("build --rays 1 -o {}/t.exr", "number of rays is 1; allowed is 100 to 1e+09."),
+        ("build --step 0 -o {}/t.exr", "step is 0 nm; allowed is 1 to 100 nm."),
+        ("build --mmd 0 -o {}/t.exr", "MMD is 0 SED"),
+        ("build -o {}/no/t.exr", "does not exist"),
+        ("info {}/none.exr", "cannot be read"),
+        ("check {}/none.exr", "cannot be read"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_2(tmp_path, capsys, arguments, sentence):
+    assert main(arguments.format(tmp_path).split()) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1
+    assert os.listdir(tmp_path) == []
+
+
+def test_ctrl_c_is_status_130_and_leaves_nothing(tmp_path):
+    code = (
+        "import sys, lut_builder.cli as cli\n"
+        "def interrupted(*_, **__): raise KeyboardInterrupt\n"
+        "cli.build = interrupted\n"
+        f"sys.exit(cli.main(['build', '-o', {str(tmp_path / 't.exr')!r}]))"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ended.returncode == 130
+    assert ended.stderr.endswith("cancelled\n")
+    assert os.listdir(tmp_path) == []

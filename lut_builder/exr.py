@@ -24,6 +24,8 @@ def write_table(path: Path, table: SkinTable) -> None:
     specification.attribute("compression", "zip")
     specification.attribute("Software", table.provenance.get("software", "lut_builder"))
     specification.attribute(HEADER_ATTRIBUTE, header)
+    # Else the hour of writing goes into the file, and equal tables are unequal files.
+    specification.attribute("DateTime", "")
     try:
         handle, name = tempfile.mkstemp(suffix=".exr", dir=path.parent, prefix=f".{path.stem}-")
     except OSError as error:

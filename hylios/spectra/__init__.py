@@ -102,7 +102,8 @@ def replaced(known: Figures, name: str, path: Path) -> Figures:
     if name not in known:
         raise InputError(f"there is no figure {name!r}; there are {', '.join(known)}.")
     try:
-        wavelengths, values = np.loadtxt(path, delimiter=",", unpack=True, ndmin=2)
+        rows = path.read_text(encoding="utf-8").splitlines()
+        wavelengths, values = np.array([row.split(",") for row in rows if row], dtype=float).T
     except (OSError, ValueError) as error:
         raise InputError(f"the figure in {path} cannot be read: {error}.") from error
     usable = np.all(np.isfinite(values)) and np.all(values >= 0)

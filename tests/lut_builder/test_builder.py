@@ -98,6 +98,7 @@ def test_a_file_holds_the_table_and_says_what_it_is(tiny, tmp_path):
     again = read_table(path)
     assert np.array_equal(again.values, tiny.values.astype(np.float32))
     assert again.provenance == tiny.provenance
+    assert b"capDate\0string\0\x13" not in path.read_bytes()
     image = oiio.ImageInput.open(str(path))
     assert image.spec().format == oiio.FLOAT
     assert image.spec().getattribute(HEADER_ATTRIBUTE) == header_text(path)

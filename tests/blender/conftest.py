@@ -1,0 +1,28 @@
+"""Every test here starts from an empty scene with the add-on registered."""
+
+import bpy
+import pytest
+from synthetic import smooth_table
+
+import blender_addon
+from lut_builder.exr import write_table
+
+
+@pytest.fixture(autouse=True)
+def empty_scene():
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    blender_addon.register()
+    yield
+    blender_addon.unregister()
+
+
+@pytest.fixture(scope="session")
+def table():
+    return smooth_table()
+
+
+@pytest.fixture(scope="session")
+def table_path(tmp_path_factory, table):
+    path = tmp_path_factory.mktemp("tables") / "S3.exr"
+    write_table(path, table)
+    return path

@@ -24,24 +24,29 @@ def missing_libraries(linked: str) -> list[str]:
     return [line.split()[0] for line in linked.splitlines() if line.endswith("not found")]
 
 
+def sentence(missing: list[str]) -> str:
+    """What to install for the missing libraries."""
+    known = sorted({DEBIAN_PACKAGES[name] for name in missing if name in DEBIAN_PACKAGES})
+    unknown = [name for name in missing if name not in DEBIAN_PACKAGES]
+    said = f"Blender needs the system libraries {', '.join(missing)}"
+    if known:
+        said += f": install them with apt-get install {' '.join(known)}"
+    if unknown:
+        said += f" (the packages that hold {', '.join(unknown)} are not known here)"
+    return f"{said}."
+
+
 def main() -> int:
+    """Check the installed bpy; status 2 and a sentence where libraries are missing."""
     module = importlib.util.find_spec("bpy")
     if module is None or module.origin is None:
         print("The Python package bpy is not installed.", file=sys.stderr)
         return 2
     linked = subprocess.run(["ldd", module.origin], capture_output=True, text=True).stdout
     missing = missing_libraries(linked)
-    if not missing:
-        return 0
-    known = sorted({DEBIAN_PACKAGES[name] for name in missing if name in DEBIAN_PACKAGES})
-    unknown = [name for name in missing if name not in DEBIAN_PACKAGES]
-    sentence = f"Blender needs the system libraries {', '.join(missing)}"
-    if known:
-        sentence += f": install them with apt-get install {' '.join(known)}"
-    if unknown:
-        sentence += f" (the packages that hold {', '.join(unknown)} are not known here)"
-    print(f"{sentence}.", file=sys.stderr)
-    return 2
+    if missing:
+        print(sentence(missing), file=sys.stderr)
+    return 2 if missing else 0
 
 
 if __name__ == "__main__":

@@ -1,0 +1,54 @@
+"""Setting up: what a machine that lacks something is told."""
+
+import importlib.util
+import os
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+def fake_python(folder, version):
+    path = folder / "python"
+    path.write_text(f"#!/bin/sh\necho {version}\n")
+    path.chmod(0o755)
+    return path
+
+
+def test_another_python_gets_one_sentence(tmp_path):
+    python = fake_python(tmp_path, "3.12")
+    command = [ROOT / "tools" / "environment.sh", tmp_path / "venv", python]
+    ended = subprocess.run(command, capture_output=True, text=True)
+    assert ended.returncode == 2
+    assert ended.stderr.startswith("Python 3.11 or 3.13 is needed")
+    assert "is 3.12: set PYTHON=" in ended.stderr
+    assert ended.stderr.count("\n") == 1
+    assert not (tmp_path / "venv").exists()
+
+
+def test_a_python_without_venv_is_told_the_debian_package(tmp_path):
+    script = '#!/bin/sh\n[ "$1" = -c ] && echo 3.13 && exit\nexit 1\n'
+    python = tmp_path / "python"
+    python.write_text(script)
+    python.chmod(0o755)
+    command = [ROOT / "tools" / "environment.sh", tmp_path / "venv", python]
+    ended = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ, BPY=""))
+    assert ended.returncode == 2
+    assert "install the Debian package python3.13-venv" in ended.stderr
+
+
+def test_missing_libraries_become_debian_packages():
+    place = ROOT / "tools" / "check_libraries.py"
+    specification = importlib.util.spec_from_file_location("check_libraries", place)
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    linked = (
+        "\tlinux-vdso.so.1 (0x1)\n\tlibXi.so.6 => not found\n"
+        "\tlibc.so.6 => /lib/libc.so.6 (0x2)\n\tlibodd.so.1 => not found\n"
+    )
+    assert module.missing_libraries(linked) == ["libXi.so.6", "libodd.so.1"]
+    assert module.sentence(["libXi.so.6", "libSM.so.6", "libodd.so.1"]) == (
+        "Blender needs the system libraries libXi.so.6, libSM.so.6, libodd.so.1: install them "
+        "with apt-get install libsm6 libxi6 (the packages that hold libodd.so.1 are not known "
+        "here)."
+    )

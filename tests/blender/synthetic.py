@@ -4,7 +4,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-import OpenImageIO as oiio
+import OpenImageIO
 
 from hylios.table import SkinTable, StateAxes
 from hylios.tanning import PIGMENTATIONS
@@ -103,4 +103,4 @@ def render(path: Path, *, width: int, height: int, samples: int = 1) -> np.ndarr
 
 
 def read_pixels(path: Path) -> np.ndarray:
-    return np.asarray(oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT))[..., :3]
+    return np.asarray(OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT))[..., :3]

@@ -1,0 +1,162 @@
+"""Skin tables: those that come with the add-on, and any file of the user's."""
+
+import functools
+import json
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from hylios.errors import InputError
+from hylios.table import SkinTable, from_pixels, header_text
+
+from .images import set_colour_space
+
+FOLDER = Path(__file__).parent / "tables"
+
+
+@dataclass(frozen=True)
+class MinimalDoses:
+    """Doses in SED from which skin tans (`mmd`) and burns (`med`)."""
+
+    mmd: float
+    med: float
+
+
+@dataclass(frozen=True)
+class ShippedTable:
+    """A table in the add-on's own folder.
+
+    Attributes
+    ----------
+    name : str
+        The specimen, such as S3.
+    pigmentation : str
+        Its constitutive pigmentation: low, intermediate or high.
+    path : Path
+    """
+
+    name: str
+    pigmentation: str
+    path: Path
+
+
+def shipped_tables() -> tuple[ShippedTable, ...]:
+    """The tables in the add-on's folder by name; none where it was not built with any."""
+    return tuple(
+        ShippedTable(path.stem, provenance(path).get("pigmentation", ""), path)
+        for path in sorted(FOLDER.glob("*.exr"))
+    )
+
+
+def table_path(skin: str, chosen: str) -> Path:
+    """Path of the table of a shipped skin by name, or of the chosen file where skin is FILE.
+
+    Raises
+    ------
+    InputError
+        If no file is chosen, or if this add-on has no such skin.
+    """
+    if skin == "FILE":
+        if not chosen:
+            raise InputError("No table is chosen: set the path of a skin table (an EXR file).")
+        return Path(bpy.path.abspath(chosen))
+    for table in SHIPPED:
+        if table.name == skin:
+            return table.path
+    names = ", ".join(table.name for table in SHIPPED) or "none"
+    raise InputError(f"Skin is {skin!r}; this add-on comes with {names}.")
+
+
+def provenance(path: Path) -> dict:
+    """What made a table, by its header alone; read again only when the file has changed.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not a table.
+    """
+    try:
+        modified = path.stat().st_mtime_ns
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
+    return _provenance(path, modified)
+
+
+@functools.lru_cache(maxsize=16)
+def _provenance(path: Path, modified: int) -> dict:
+    try:
+        described = json.loads(header_text(path))["provenance"]
+    except (json.JSONDecodeError, KeyError, TypeError) as error:
+        raise InputError(f"{path} says nothing about what made it.") from error
+    if not isinstance(described, dict):
+        raise InputError(f"{path} says nothing about what made it.")
+    return described
+
+
+def minimal_doses(described: dict) -> MinimalDoses:
+    """Minimal doses of a table's skin from its provenance.
+
+    Raises
+    ------
+    InputError
+        If the provenance has none.
+    """
+    try:
+        return MinimalDoses(mmd=float(described["mmd_sed"]), med=float(described["med_sed"]))
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"the table has no usable minimal dose: {error!r}.") from error
+
+
+def load(path: Path) -> SkinTable:
+    """Load a table; its pixels come through Blender's own image loader, bit-exactly.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not a table.
+    """
+    header = header_text(path)
+    _require_whole(path)
+    try:
+        image = bpy.data.images.load(str(path), check_existing=False)
+    except RuntimeError as error:
+        raise InputError(f"the table {path} cannot be read as an image.") from error
+    try:
+        set_colour_space(image, is_colour=False)
+        width, height = image.size
+        pixels = np.empty(width * height * image.channels, dtype=np.float32)
+        if not pixels.size:
+            raise InputError(f"the table {path} cannot be read as an image.")
+        image.pixels.foreach_get(pixels)
+        # Blender's first row is the bottom one, a table's the top one.
+        rows = pixels.reshape(height, width, image.channels)[::-1, :, :3]
+        return from_pixels(rows, header)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def _require_whole(path: Path) -> None:
+    """Raise InputError unless every scan-line block that an EXR file lists lies inside it.
+
+    Blender 5.0 crashes on a file that was cut short.
+    """
+    data = path.read_bytes()
+    try:
+        position = 8
+        while data[position]:
+            end_of_type = data.index(b"\0", data.index(b"\0", position) + 1)
+            (size,) = struct.unpack_from("<i", data, end_of_type + 1)
+            position = end_of_type + 5 + size
+        (first,) = struct.unpack_from("<Q", data, position + 1)
+        offsets = struct.unpack_from(f"<{(first - position - 1) // 8}Q", data, position + 1)
+        sizes = [struct.unpack_from("<i", data, offset + 4)[0] for offset in offsets]
+    except (IndexError, ValueError, struct.error) as error:
+        raise InputError(f"the table {path} is cut short.") from error
+    if any(offset + 8 + size > len(data) for offset, size in zip(offsets, sizes, strict=True)):
+        raise InputError(f"the table {path} is cut short.")
+
+
+SHIPPED = shipped_tables()

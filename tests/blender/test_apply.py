@@ -1,0 +1,278 @@
+"""What Apply leaves in the scene, and what it says where it cannot."""
+
+import shutil
+
+import bpy
+import numpy as np
+import pytest
+from bpy_extras.anim_utils import action_get_channelbag_for_slot
+from synthetic import tan_object
+
+from blender_addon import tables
+from lut_builder.exr import read_table
+
+MATERIAL = "Skin Tan Body"
+
+
+@pytest.fixture
+def body(table_path):
+    return tan_object(table_path, [0.0, 0.5, 1.0])
+
+
+def apply() -> set:
+    return bpy.ops.skin_tan.apply()
+
+
+def day_curve(obj):
+    animation = obj.animation_data
+    bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
+    (curve,) = (curve for curve in bag.fcurves if curve.data_path == '["tan_day"]')
+    return curve
+
+
+def day_keys(obj) -> list[tuple]:
+    return [(*key.co, key.interpolation) for key in day_curve(obj).keyframe_points]
+
+
+def refused(sentence: str) -> None:
+    """Apply refuses with a sentence that matches, and leaves nothing behind."""
+    with pytest.raises(RuntimeError, match=sentence) as caught:
+        apply()
+    assert len(str(caught.value).strip().splitlines()) == 1
+    assert not [*bpy.data.images, *bpy.data.materials, *bpy.data.node_groups, *bpy.data.actions]
+
+
+def test_a_table_loaded_by_blender_is_the_table_that_was_written(table_path):
+    loaded, written = tables.load(table_path), read_table(table_path)
+    assert np.array_equal(loaded.values, written.values)
+    assert loaded.provenance == written.provenance
+    assert not bpy.data.images
+
+
+def test_shipped_tables_can_be_loaded():
+    for shipped in tables.SHIPPED:
+        table = tables.load(shipped.path)
+        assert table.provenance["specimen"] == shipped.name
+        assert tables.minimal_doses(table.provenance).mmd > 0
+
+
+def test_shipped_skins_can_be_chosen_and_applied(body):
+    for shipped in tables.SHIPPED:
+        body.skin_tan.skin = shipped.name
+        assert apply() == {"FINISHED"}
+
+
+def test_images_are_packed_floats(body):
+    apply()
+    spaces = {image.name: image.colorspace_settings.name for image in bpy.data.images}
+    assert spaces == {
+        "Skin Tan Colour Body": "Linear Rec.709",
+        "Skin Tan Width Body": "Non-Color",
+    }
+    for image in bpy.data.images:
+        assert image.is_float and image.packed_file is not None
+
+
+def test_the_day_is_keyed_linearly(body):
+    settings = body.skin_tan
+    settings.first_day, settings.last_day = 1.0, 21.0
+    settings.first_frame, settings.last_frame = 10, 50
+    bpy.context.scene.frame_set(20)
+    apply()
+    assert day_keys(body) == [(10, 1, "LINEAR"), (50, 21, "LINEAR")]
+    assert day_curve(body).extrapolation == "CONSTANT"
+    assert body["tan_day"] == pytest.approx(6.0)
+    for frame, day in ((0, 1.0), (30, 11.0), (99, 21.0)):
+        bpy.context.scene.frame_set(frame)
+        assert body["tan_day"] == pytest.approx(day)
+
+
+def test_keys_are_replaced_and_other_animation_is_kept(body):
+    body.keyframe_insert("location", frame=3)
+    apply()
+    body.skin_tan.first_frame, body.skin_tan.last_frame = 40, 60
+    apply()
+    assert [key[0] for key in day_keys(body)] == [40, 60]
+    animation = body.animation_data
+    bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
+    assert sorted(curve.data_path for curve in bag.fcurves) == ['["tan_day"]', *["location"] * 3]
+
+
+def test_applying_twice_replaces(body):
+    apply()
+    images = {image.name: image.size[1] for image in bpy.data.images}
+    node = next(n for n in bpy.data.materials[MATERIAL].node_tree.nodes if n.type == "GROUP")
+    node.inputs["Roughness"].default_value = 0.3
+    body.skin_tan.last_day = 10.0
+    apply()
+    assert {image.name for image in bpy.data.images} == set(images)
+    assert all(image.size[1] < images[image.name] for image in bpy.data.images)
+    assert [material.name for material in bpy.data.materials] == [MATERIAL]
+    assert [group.name for group in bpy.data.node_groups] == [MATERIAL]
+    assert [slot.material.name for slot in body.material_slots] == [MATERIAL]
+    # What the artist has set on the material is kept.
+    assert node.inputs["Roughness"].default_value == pytest.approx(0.3)
+    assert len(bpy.data.node_groups[MATERIAL].interface.items_tree) == 5
+
+
+def test_long_names_are_found_again(body):
+    body.name = "ä" * 31
+    apply()
+    apply()
+    assert len(bpy.data.images) == 2 and len(bpy.data.materials) == 1
+
+
+def test_undo_takes_it_all_back(body):
+    bpy.ops.ed.undo_push(message="before")
+    apply()
+    bpy.ops.ed.undo_push(message="after")
+    assert len(bpy.data.images) == 2
+    bpy.ops.ed.undo()
+    body = bpy.data.objects["Body"]
+    assert not [*bpy.data.images, *bpy.data.materials, *bpy.data.node_groups, *bpy.data.actions]
+    assert "tan_day" not in body and not body.material_slots
+
+
+def test_the_active_slot_gets_the_tan_and_other_slots_stay(body):
+    for name in ("Eyes", "Skin", "Nails"):
+        body.data.materials.append(bpy.data.materials.new(name))
+    body.active_material_index = 1
+    apply()
+    apply()
+    assert [slot.material.name for slot in body.material_slots] == ["Eyes", MATERIAL, "Nails"]
+    assert bpy.data.materials["Skin"].use_fake_user
+
+
+def test_objects_that_share_a_mesh_keep_their_own_skin(body, table_path):
+    other = bpy.data.objects.new("Twin", body.data)
+    bpy.context.collection.objects.link(other)
+    apply()
+    bpy.context.view_layer.objects.active = other
+    other.skin_tan.skin, other.skin_tan.table_path = "FILE", str(table_path)
+    apply()
+    assert body.material_slots[0].material.name == MATERIAL
+    assert other.material_slots[0].material.name == "Skin Tan Twin"
+
+
+def test_exposures_after_the_last_day_are_reported(body, capfd):
+    body.skin_tan.exposures.add().day = 40.0
+    assert apply() == {"FINISHED"}
+    assert "Exposures after day 30 have no effect: 1." in capfd.readouterr().out
+
+
+def test_own_minimal_doses_replace_the_table_s(body):
+    def last_row():
+        apply()
+        image = bpy.data.images["Skin Tan Colour Body"]
+        pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(image.size[1], image.size[0], 4)[-1, -1, :3]
+
+    tanned = last_row()
+    body.skin_tan.own_minimal_doses = True
+    body.skin_tan.mmd = body.skin_tan.med = 50.0
+    assert np.all(last_row() > tanned + 0.01)
+
+
+def test_exposures_are_added_and_removed(body):
+    settings = body.skin_tan
+    bpy.ops.skin_tan.add_exposure()
+    assert (len(settings.exposures), settings.exposure_index) == (2, 1)
+    settings.exposures[1].dose = 5.0
+    settings.exposure_index = 0
+    bpy.ops.skin_tan.remove_exposure()
+    assert (settings.exposures[0].dose, settings.exposure_index) == (5.0, 0)
+    bpy.ops.skin_tan.remove_exposure()
+    assert not bpy.ops.skin_tan.remove_exposure.poll()
+
+
+def test_no_object():
+    refused("No object is active; select a mesh object")
+
+
+def test_not_a_mesh():
+    bpy.ops.object.empty_add()
+    refused("'Empty' is a empty object; allowed is a mesh")
+
+
+def test_linked_objects_are_refused(body, tmp_path):
+    path = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.objects = ["Body"]
+    linked = bpy.data.objects["Body"]
+    bpy.context.collection.objects.link(linked)
+    bpy.context.view_layer.objects.active = linked
+    refused("The object 'Body' is linked from another file")
+
+
+def test_linked_animation_is_refused(body, tmp_path):
+    body.keyframe_insert("location", frame=3)
+    name = body.animation_data.action.name
+    path = tmp_path / "library.blend"
+    bpy.data.libraries.write(str(path), {body.animation_data.action})
+    bpy.data.actions.remove(body.animation_data.action)
+    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.actions = [name]
+    body.animation_data.action = bpy.data.actions[name]
+    with pytest.raises(RuntimeError, match="The animation of 'Body' is linked"):
+        apply()
+    assert not bpy.data.images and "tan_day" not in body
+
+
+def test_missing_mask(body):
+    body.skin_tan.mask_attribute = "shade"
+    refused("no attribute 'shade'; float attributes of its points: sun")
+
+
+@pytest.mark.parametrize(
+    ("kind", "domain"), [("FLOAT_COLOR", "POINT"), ("FLOAT", "FACE"), ("FLOAT", "CORNER")]
+)
+def test_mask_of_another_kind(body, kind, domain):
+    body.data.attributes.new("shade", kind, domain)
+    body.skin_tan.mask_attribute = "shade"
+    refused(f"'shade' is of type {kind} on domain {domain}; allowed is FLOAT on POINT")
+
+
+def test_days_and_frames_out_of_order(body):
+    settings = body.skin_tan
+    settings.first_day = settings.last_day = 5.0
+    refused("last day is 5; allowed is more than the first day, 5, to 366")
+    settings.last_day = float("nan")
+    refused("last day is nan; allowed is 0 to 366")
+    settings.last_day, settings.last_frame = 9.0, 1
+    refused("last frame is 1; allowed is more than the first frame, 1")
+
+
+def test_dose_that_is_no_number(body):
+    body.skin_tan.exposures[0].dose = float("nan")
+    refused("a dose is negative or not finite")
+
+
+def test_tables_that_cannot_be_used(body, table_path, tmp_path):
+    settings = body.skin_tan
+    settings.table_path = ""
+    refused("No table is chosen")
+    settings.table_path = str(tmp_path / "absent.exr")
+    refused("absent.exr cannot be read: No such file")
+    settings.table_path = str(tmp_path)
+    refused("cannot be read: Is a directory")
+    text = tmp_path / "text.exr"
+    text.write_text("no image")
+    settings.table_path = str(text)
+    refused("text.exr is not an OpenEXR file")
+    cut = tmp_path / "cut.exr"
+    settings.table_path = str(cut)
+    whole = table_path.read_bytes()
+    for removed in (1, 20, 500, 1000, 2000, len(whole) - 100):
+        cut.write_bytes(whole[:-removed])
+        refused("cut.exr is cut short|cut.exr is an OpenEXR file but not a skin tan table")
+
+
+def test_a_table_beside_the_blend_file(body, table_path, tmp_path):
+    shutil.copy(table_path, tmp_path / "skin.exr")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    body = bpy.data.objects["Body"]
+    body.skin_tan.table_path = "//skin.exr"
+    assert apply() == {"FINISHED"}

@@ -1,0 +1,112 @@
+"""The panel drawn on a layout that raises where Blender would only print."""
+
+import bpy
+import pytest
+from synthetic import tan_object
+
+from blender_addon import panels, tables
+
+ICONS = {
+    item.identifier
+    for item in bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
+}
+
+
+class Layout:
+    """Records the labels; refuses properties, operators and icons that do not exist."""
+
+    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y"}
+
+    def __init__(self, labels: list[str]):
+        object.__setattr__(self, "labels", labels)
+
+    def __setattr__(self, name, value):
+        assert name in self.ATTRIBUTES and name in bpy.types.UILayout.bl_rna.properties
+
+    def row(self, align=False):
+        return Layout(self.labels)
+
+    column = row
+
+    def separator(self):
+        pass
+
+    def label(self, *, text, icon="NONE"):
+        assert icon in ICONS
+        self.labels.append(text)
+
+    def prop(self, data, name, *, text=None, emboss=True):
+        assert name in data.bl_rna.properties
+
+    def prop_search(self, data, name, collection, items, *, text, icon):
+        assert name in data.bl_rna.properties and items in collection.bl_rna.properties
+        assert icon in ICONS
+
+    def operator(self, name, *, text=None, icon="NONE"):
+        assert icon in ICONS
+        module, function = name.split(".")
+        getattr(getattr(bpy.ops, module), function).get_rna_type()
+
+    def template_list(self, kind, identifier, data, name, active_data, active_name, *, rows):
+        assert hasattr(bpy.types, kind)
+        assert name in data.bl_rna.properties and active_name in active_data.bl_rna.properties
+        for item in getattr(data, name):
+            panels.SKIN_TAN_UL_exposures.draw_item(
+                None, bpy.context, Layout(self.labels), data, item, 0, active_data, active_name
+            )
+
+
+class Panel:
+    def __init__(self, labels):
+        self.layout = Layout(labels)
+
+
+def drawn() -> list[str]:
+    labels: list[str] = []
+    panels.VIEW3D_PT_skin_tan.draw(Panel(labels), bpy.context)
+    return labels
+
+
+def test_the_mock_raises_on_what_does_not_exist(table_path):
+    obj = tan_object(table_path)
+    with pytest.raises(AssertionError):
+        Layout([]).prop(obj.skin_tan, "absent")
+    with pytest.raises(KeyError):
+        Layout([]).operator("skin_tan.absent")
+
+
+def test_without_an_object():
+    assert drawn() == ["Select a mesh object"]
+
+
+def test_with_every_setting(table_path):
+    obj = tan_object(table_path, [0.0, 1.0])
+    obj.skin_tan.own_minimal_doses = True
+    labels = drawn()
+    assert "Tans from 4.9 SED of sun," in labels
+    assert "burns from 2.9 SED (estimates)" in labels
+    assert "30 SED: 4.2 h of strong summer sun" in labels
+    bpy.ops.skin_tan.apply()
+    assert "This frame shows day 0.0" in drawn()
+
+
+def test_a_new_object_says_what_to_do():
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.skin_tan.skin = "FILE"
+    labels = drawn()
+    assert "Choose a skin table (EXR file)" in labels
+    assert "Add a time in the sun with +" in labels
+    assert "No mask: the whole body is bare" in labels
+
+
+def test_a_file_that_is_no_table(table_path, tmp_path):
+    obj = tan_object(table_path)
+    obj.skin_tan.table_path = str(tmp_path / "absent.exr")
+    assert "This is not a usable skin table" in drawn()
+
+
+def test_every_shipped_skin_has_its_estimate():
+    bpy.ops.mesh.primitive_cube_add()
+    for shipped in tables.SHIPPED:
+        bpy.context.object.skin_tan.skin = shipped.name
+        assert any("(estimates)" in label for label in drawn())

@@ -2,7 +2,6 @@
 
 import functools
 import json
-import struct
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -119,7 +118,6 @@ def load(path: Path) -> SkinTable:
         If the file cannot be read or is not a table.
     """
     header = header_text(path)
-    _require_whole(path)
     try:
         image = bpy.data.images.load(str(path), check_existing=False)
     except RuntimeError as error:
@@ -136,27 +134,6 @@ def load(path: Path) -> SkinTable:
         return from_pixels(rows, header)
     finally:
         bpy.data.images.remove(image)
-
-
-def _require_whole(path: Path) -> None:
-    """Raise InputError unless every scan-line block that an EXR file lists lies inside it.
-
-    Blender 5.0 crashes on a file that was cut short.
-    """
-    data = path.read_bytes()
-    try:
-        position = 8
-        while data[position]:
-            end_of_type = data.index(b"\0", data.index(b"\0", position) + 1)
-            (size,) = struct.unpack_from("<i", data, end_of_type + 1)
-            position = end_of_type + 5 + size
-        (first,) = struct.unpack_from("<Q", data, position + 1)
-        offsets = struct.unpack_from(f"<{(first - position - 1) // 8}Q", data, position + 1)
-        sizes = [struct.unpack_from("<i", data, offset + 4)[0] for offset in offsets]
-    except (IndexError, ValueError, struct.error) as error:
-        raise InputError(f"the table {path} is cut short.") from error
-    if any(offset + 8 + size > len(data) for offset, size in zip(offsets, sizes, strict=True)):
-        raise InputError(f"the table {path} is cut short.")
 
 
 SHIPPED = shipped_tables()

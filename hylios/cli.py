@@ -2,25 +2,21 @@
 
 import argparse
 import sys
-from pathlib import Path
 
 import numpy as np
 
-from hylios.command_line import named_values, number, run, wavelength_range
-from hylios.errors import InputError, require_range
-from hylios.specimen import specimen, with_values
-from hylios.spectra import estimates_within, figures, replaced
+from hylios.errors import InputError
+from hylios.shell import add_skin_arguments, chosen_skin, number, run, wavelength_range
+from hylios.spectra import estimates_within
 from hylios.tanning import (
     PIGMENTATIONS,
+    TYPICAL_PIGMENTATION,
     Exposures,
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
     simulate,
 )
-
-TYPICAL_PIGMENTATION = {"low": 0.0235, "intermediate": 0.10, "high": 0.25}
-"""Melanin fraction that stands for a tanning set where no minimal doses are given (an estimate:
-S3's, a value between, and S4's)."""
+from hylios.tissue import FIGURES
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -35,34 +31,15 @@ def _parser() -> argparse.ArgumentParser:
 
     light = commands.add_parser("reflectance", help="spectrum of a specimen by random walk")
     light.set_defaults(command=_reflectance)
-    light.add_argument("--specimen", default="S3", help="S1 to S4 of table 6.1 (default S3)")
-    light.add_argument(
-        "--set", action="append", default=[], metavar="NAME=VALUE", help="set a parameter"
-    )
-    light.add_argument(
-        "--reading",
-        action="append",
-        default=[],
-        metavar="NAME=CHOICE",
-        help="another reading of the thesis's text (hylios.tissue.READINGS)",
-    )
-    light.add_argument(
-        "--figure",
-        action="append",
-        default=[],
-        metavar="NAME=FILE",
-        help="a spectrum of your own: CSV of nm and value",
-    )
+    add_skin_arguments(light)
     light.add_argument("--wavelengths", default="400:700:10", help="nm, FIRST:LAST:STEP or a,b,c")
     light.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
     light.add_argument("--rays", type=int, default=100_000, help="per wavelength")
-    light.add_argument("--seed", type=int, default=1)
     light.add_argument(
         "--as-printed",
         action="store_true",
         help="walk every path inside a melanosome (same model, slower)",
     )
-    light.add_argument("--threads", type=int, help="default: all cores")
 
     tan = commands.add_parser("tan", help="melanin and thickness over time")
     tan.set_defaults(command=_tan)
@@ -79,26 +56,19 @@ def _parser() -> argparse.ArgumentParser:
 def _reflectance(asked: argparse.Namespace) -> None:
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
-    known = figures()
-    for name, path in named_values(asked.figure, "a figure").items():
-        known = replaced(known, name, Path(path))
-    values = {
-        name: number(text, name) for name, text in named_values(asked.set, "a setting").items()
-    }
-    if asked.threads is not None:
-        require_range("number of threads", asked.threads, 1, 1024)
+    specimen, known, chosen = chosen_skin(asked)
     result = spectrum(
-        with_values(specimen(asked.specimen), values),
+        specimen,
         wavelength_range(asked.wavelengths),
         angle=asked.angle,
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,
         known=known,
-        chosen=named_values(asked.reading, "a reading"),
+        chosen=chosen,
         as_printed=asked.as_printed,
     )
-    for line in estimates_within(known, result.wavelengths):
+    for line in estimates_within(known, FIGURES, result.wavelengths):
         print(f"note: {line}", file=sys.stderr)
     print("wavelength_nm,total,surface,subsurface,absorptance,standard_error")
     columns = (

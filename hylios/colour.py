@@ -5,6 +5,8 @@ from functools import cache
 
 import numpy as np
 
+from hylios.errors import InputError
+
 with warnings.catch_warnings():  # it warns that it cannot plot without matplotlib
     warnings.simplefilter("ignore")
     import colour
@@ -27,8 +29,15 @@ def xyz_weights(wavelengths: np.ndarray) -> np.ndarray:
 
     Reflectance is taken as linear between the wavelengths and constant beyond them; a white
     diffuser has Y = 1.
+
+    Raises
+    ------
+    InputError
+        If the wavelengths do not ascend.
     """
     wavelengths = np.asarray(wavelengths, dtype=float)
+    if wavelengths.ndim != 1 or not np.all(np.diff(wavelengths) > 0) or not wavelengths.size:
+        raise InputError("wavelengths of a colour must be a list of ascending numbers, in nm.")
     grid, weights = _observer_under_daylight()
     hats = np.array([np.interp(grid, wavelengths, row) for row in np.eye(wavelengths.size)])
     return weights @ hats.T

@@ -17,3 +17,17 @@ def require_range(name: str, value: float, low: float, high: float, unit: str = 
         suffix = f" {unit}" if unit else ""
         raise InputError(f"{name} is {value:g}{suffix}; allowed is {low:g} to {high:g}{suffix}.")
     return value
+
+
+def require_whole(name: str, value: float, low: int, high: int) -> int:
+    """Return `value` as an int if it is a whole number in [low, high].
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    require_range(name, value, low, high)
+    if value != int(value):
+        raise InputError(f"{name} is {value:g}; allowed are whole numbers, {low:g} to {high:g}.")
+    return int(value)

@@ -1,6 +1,8 @@
 """Skin specimens: the parameters of tables 6.1 and 6.2 of the thesis."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -90,6 +92,12 @@ class Specimen:
             limits = each.metadata
             value = getattr(self, each.name)
             require_range(each.name, value, limits["low"], limits["high"], limits["unit"])
+        for layer, content in zip(reversed(EPIDERMIS), self.melanin, strict=True):
+            if content > 1.0 + 1e-9:
+                raise InputError(
+                    f"{layer}_melanosomes and {layer}_colloidal_melanin together are "
+                    f"{100.0 * content:g} %; allowed is 0 to 100 %."
+                )
         if self.melanosome_major_axis < self.melanosome_minor_axis:
             raise InputError(
                 f"melanosome_major_axis is {self.melanosome_major_axis:g} um; allowed is the "
@@ -123,15 +131,15 @@ def parameters():
     return [each for each in fields(Specimen) if each.metadata]
 
 
-def with_values(specimen: Specimen, values: dict[str, float]) -> Specimen:
-    """The specimen with some parameters set by name.
+def with_values(specimen: Specimen, values: Mapping[str, Any]) -> Specimen:
+    """The specimen with some parameters set by name: numbers, and the melanosomes' arrangement.
 
     Raises
     ------
     InputError
         If there is no such parameter or its value is out of range.
     """
-    known = {each.name for each in parameters()}
+    known = [each.name for each in fields(Specimen) if each.name != "name"]
     for name in values:
         if name not in known:
             raise InputError(f"there is no parameter {name!r}; there are {', '.join(known)}.")
@@ -165,8 +173,7 @@ def tanned(specimen: Specimen, melanin: np.ndarray, thickness: float) -> Specime
     if melanin.shape != (3,) or not (np.all(np.isfinite(melanin)) and np.all(melanin >= 0)):
         raise InputError(f"relative melanin is {melanin.tolist()}; allowed are 3 values from 0 on.")
     require_range("relative thickness", thickness, 1e-3, 1e3)
-    total = specimen.melanin @ specimen.epidermal_thickness
-    content = melanin / specimen.epidermal_thickness * total / thickness
+    content = _content(specimen, melanin, thickness)
     changes = {
         f"{layer}_thickness": getattr(specimen, f"{layer}_thickness") * thickness
         for layer in ("corneum", *EPIDERMIS, "papillary", "reticular")
@@ -177,6 +184,17 @@ def tanned(specimen: Specimen, melanin: np.ndarray, thickness: float) -> Specime
         changes[f"{layer}_melanosomes"] = percent * share
         changes[f"{layer}_colloidal_melanin"] = percent * (1.0 - share)
     return replace(specimen, **changes)
+
+
+def overfull(specimen: Specimen, melanin: np.ndarray, thickness: float) -> bool:
+    """Whether `tanned` has to cut melanin in a tanning state because it would overfill a layer."""
+    return bool(np.any(_content(specimen, melanin, thickness) > 1.0))
+
+
+def _content(specimen: Specimen, melanin: np.ndarray, thickness: float) -> np.ndarray:
+    """Melanin content of basale, spinosum, granulosum as volume fraction (5.16)."""
+    total = specimen.melanin @ specimen.epidermal_thickness
+    return melanin / specimen.epidermal_thickness * total / thickness
 
 
 def _melanosome_share(specimen: Specimen, layer: str) -> float:
@@ -293,6 +311,9 @@ SPECIMENS = {
     )
 }
 """The four specimens of table 6.1: S1 to S3 lightly, S4 darkly pigmented."""
+
+USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
+"""Set of table 6.4 for each specimen, by the caption of table 6.1."""
 
 
 def specimen(name: str) -> Specimen:

@@ -63,7 +63,15 @@ class StateAxes:
         return tuple(len(axis) for axis in self.knots)
 
     def coordinates(self, states: np.ndarray) -> np.ndarray:
-        """Coordinates (..., K) of states (..., 4)."""
+        """Coordinates (..., K) of states (..., 4).
+
+        Raises
+        ------
+        InputError
+            If a state has a number that is not above 0.
+        """
+        if not np.all((states > 0) & np.isfinite(states)):
+            raise InputError("a tanning state has a number that is not above 0 and finite.")
         return np.log(states / self.untanned) @ self.basis
 
     def states(self, coordinates: np.ndarray) -> np.ndarray:
@@ -145,10 +153,9 @@ def to_pixels(table: SkinTable) -> tuple[np.ndarray, str]:
             "basis": table.axes.basis.tolist(),
             "knots": [axis.tolist() for axis in table.axes.knots],
         },
-        "checksum": _checksum(pixels),
         "provenance": table.provenance,
     }
-    return pixels, json.dumps(header)
+    return pixels, json.dumps({**header, "checksum": _checksum(header, pixels)})
 
 
 def from_pixels(pixels: np.ndarray, header_text: str) -> SkinTable:
@@ -168,7 +175,7 @@ def from_pixels(pixels: np.ndarray, header_text: str) -> SkinTable:
             knots=tuple(np.array(axis, dtype=float) for axis in described["knots"]),
         )
         planes, provenance = header["planes"], header["provenance"]
-        checksum = header["checksum"]
+        checksum = header.pop("checksum")
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"the table's header is incomplete: {error!r}.") from error
     _check_axes(axes)
@@ -181,8 +188,8 @@ def from_pixels(pixels: np.ndarray, header_text: str) -> SkinTable:
             f"the table's image has shape {pixels.shape}; its header describes "
             f"{(rows, axes.shape[0], 3)}."
         )
-    if _checksum(pixels) != checksum:
-        raise InputError("the table's pixels do not match the checksum in its header.")
+    if _checksum(header, pixels) != checksum:
+        raise InputError("the table does not match the checksum in its header.")
     stacked = pixels.astype(float).reshape(len(PLANES), *axes.shape[:0:-1], axes.shape[0], 3)
     values = stacked.transpose(*range(len(axes.shape), 0, -1), 0, stacked.ndim - 1)
     return SkinTable(axes=axes, values=np.ascontiguousarray(values), provenance=provenance)
@@ -214,17 +221,21 @@ def _check_axes(axes: StateAxes) -> None:
         raise InputError("the table's axes are not four positive numbers, a basis and knots.")
 
 
-def _checksum(pixels: np.ndarray) -> str:
-    return hashlib.sha256(pixels.astype("<f4").tobytes()).hexdigest()
+def _checksum(header: dict, pixels: np.ndarray) -> str:
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    digest.update(pixels.astype("<f4").tobytes())
+    return digest.hexdigest()
 
 
 def header_text(path: Path) -> str:
     """The JSON text in the header of a table's EXR file, read without any image library.
 
+    Also makes sure that the file is whole: Blender 5.0 crashes on one that was cut short.
+
     Raises
     ------
     InputError
-        If the file cannot be read, is no EXR, or has no such attribute.
+        If the file cannot be read, is no EXR, is cut short, or has no such attribute.
     """
     try:
         data = path.read_bytes()
@@ -232,17 +243,40 @@ def header_text(path: Path) -> str:
         raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
     if data[:4] != b"\x76\x2f\x31\x01":
         raise InputError(f"{path} is not an OpenEXR file.")
-    position = 8
-    while position < len(data) and data[position] != 0:
-        end_of_name = data.find(b"\0", position)
-        end_of_type = data.find(b"\0", end_of_name + 1)
-        if end_of_name < 0 or end_of_type < 0 or end_of_type + 5 > len(data):
-            break
+    try:
+        attributes, end = _exr_attributes(data)
+        whole = _blocks_lie_inside(data, end)
+    except (IndexError, ValueError, struct.error) as error:
+        raise InputError(f"the table {path} is cut short or damaged.") from error
+    if not whole:
+        raise InputError(f"the table {path} is cut short or damaged.")
+    if HEADER_ATTRIBUTE not in attributes:
+        raise InputError(f"{path} is an OpenEXR file but not a {FORMAT}.")
+    return attributes[HEADER_ATTRIBUTE].decode("utf-8", errors="replace")
+
+
+def _exr_attributes(data: bytes) -> tuple[dict[str, bytes], int]:
+    """Attributes of an EXR file's header by name, and where the header ends."""
+    attributes, position = {}, 8
+    while data[position]:
+        end_of_name = data.index(b"\0", position)
+        end_of_type = data.index(b"\0", end_of_name + 1)
         (size,) = struct.unpack_from("<i", data, end_of_type + 1)
         start = end_of_type + 5
-        if size < 0 or start + size > len(data):
-            break
-        if data[position:end_of_name] == HEADER_ATTRIBUTE.encode():
-            return data[start : start + size].decode("utf-8", errors="replace")
+        if size < 0:
+            raise ValueError("an attribute of negative size")
+        name = data[position:end_of_name].decode("latin-1")
+        attributes[name] = data[start : start + size]
         position = start + size
-    raise InputError(f"{path} is an OpenEXR file but not a {FORMAT}.")
+    return attributes, position + 1
+
+
+def _blocks_lie_inside(data: bytes, start: int) -> bool:
+    """Whether all blocks of scan lines in an EXR file's list of offsets lie within the file."""
+    (first,) = struct.unpack_from("<Q", data, start)
+    offsets = struct.unpack_from(f"<{(first - start) // 8}Q", data, start)
+    sizes = [struct.unpack_from("<i", data, offset + 4)[0] for offset in offsets]
+    return all(
+        size >= 0 and offset + 8 + size <= len(data)
+        for offset, size in zip(offsets, sizes, strict=True)
+    )

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, require_range, require_whole
 
-LAYERS = ("basale", "spinosum", "granulosum")
 LONGEST_HOURS = 24 * 366 * 100
 
 
@@ -32,6 +31,14 @@ class MelaninDynamics:
     melanin_decay: float = 0.99
     hill_exponent: float = 0.7
     hill_constant: float = 500.0
+
+    def __post_init__(self):
+        for name in ("production", "transfer", "extra_production", "extra_transfer"):
+            for rate in getattr(self, name):
+                require_range(f"{name} rate of melanin", rate, 0.0, 1.0)
+        _require_decays(self, "melanin_decay")
+        if not self.steady_state().sum() > 0:
+            raise InputError("melanin production is 0 in every layer; allowed is more than that.")
 
     def steady_state(self) -> np.ndarray:
         """Relative melanin per layer without sun, shape (3,), sum 1 (5.13).
@@ -61,9 +68,21 @@ class ThicknessDynamics:
     production: float = 0.1
     extra_production: float = 0.025
 
+    def __post_init__(self):
+        require_range("production of thickness", self.production, 1e-9, 1e9)
+        require_range("extra production of thickness", self.extra_production, 0.0, 1e9)
+        _require_decays(self, "cell_decay")
+
     def steady_state(self) -> float:
         """Thickness without sun, in the model's own unit (5.28)."""
         return self.production / (1.0 - self.cell_decay)
+
+
+def _require_decays(dynamics, own: str) -> None:
+    for name in ("energy_decay", "signal_rate_decay", "signal_decay", own):
+        require_range(name, getattr(dynamics, name), 0.0, 1.0 - 1e-9)
+    require_range("hill_exponent", dynamics.hill_exponent, 1e-3, 100.0)
+    require_range("hill_constant", dynamics.hill_constant, 1e-9, 1e12)
 
 
 PIGMENTATIONS = {
@@ -88,6 +107,10 @@ PIGMENTATIONS = {
 }
 """The three sets of table 6.4 by constitutive pigmentation."""
 
+TYPICAL_PIGMENTATION = {"low": 0.0235, "intermediate": 0.10, "high": 0.25}
+"""Melanin fraction of the epidermis that stands for a set where nothing else is known: S3's, one
+between, and S4's. ESTIMATE."""
+
 
 def minimal_erythema_dose(pigmentation: float) -> float:
     """MED in SED of skin with the given melanin fraction of its epidermis, 0.013 to 0.43 (3.1)."""
@@ -108,33 +131,53 @@ class Exposures:
     Attributes
     ----------
     hours : (E,) int array
-        Hour of each dose, 0 or later, in any order.
+        Hour of each dose, 0 to a century, in any order.
     doses : (..., E) float array
         Dose in SED of each exposure. Leading axes are separate histories, such as places on a
         body that different shares of the light reach.
+    thickening_doses : (..., E) float array, optional
+        Dose in SED as it counts for the thickness, where the light's spectrum has it differ
+        (`hylios.dose`); the same as `doses` by default.
 
     Raises
     ------
     InputError
-        If an hour or a dose is negative or not a number, or the shapes do not agree.
+        If an hour or a dose is out of range or not a number, or the shapes do not agree.
     """
 
     hours: np.ndarray = field(default_factory=lambda: np.zeros(0, int))
     doses: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    thickening_doses: np.ndarray | None = None
 
     def __post_init__(self):
         hours = np.asarray(self.hours)
-        doses = np.asarray(self.doses, dtype=float)
-        if hours.ndim != 1 or doses.ndim < 1 or doses.shape[-1] != hours.size:
+        if hours.ndim != 1 or not np.all((hours >= 0) & (hours <= LONGEST_HOURS)):
             raise InputError(
-                f"doses have shape {doses.shape}; the last axis must match the {hours.size} hours."
+                f"hours of exposure are {hours.tolist()}; allowed are 0 to {LONGEST_HOURS}."
             )
-        if hours.size and not (np.all(hours >= 0) and np.all(hours == np.floor(hours))):
-            raise InputError(f"hours of exposure are {hours.tolist()}; allowed are whole, from 0.")
-        if not np.all((doses >= 0) & np.isfinite(doses)):
-            raise InputError("a dose is negative or not finite; allowed is 0 SED or more.")
+        if not np.all(hours == np.floor(hours)):
+            raise InputError(f"hours of exposure are {hours.tolist()}; allowed are whole hours.")
+        doses = _checked_doses(self.doses, hours.size)
+        thickening = self.thickening_doses
+        thickening = doses if thickening is None else _checked_doses(thickening, hours.size)
+        if thickening.shape != doses.shape:
+            raise InputError(
+                f"thickening doses have shape {thickening.shape}; expected {doses.shape}."
+            )
         object.__setattr__(self, "hours", hours.astype(int))
         object.__setattr__(self, "doses", doses)
+        object.__setattr__(self, "thickening_doses", thickening)
+
+
+def _checked_doses(given: np.ndarray, exposures: int) -> np.ndarray:
+    doses = np.array(given, dtype=float)
+    if doses.ndim < 1 or doses.shape[-1] != exposures:
+        raise InputError(
+            f"doses have shape {doses.shape}; the last axis must match the {exposures} hours."
+        )
+    if not np.all((doses >= 0) & np.isfinite(doses)):
+        raise InputError("a dose is negative or not finite; allowed is 0 SED or more.")
+    return doses
 
 
 @dataclass(frozen=True)
@@ -209,10 +252,11 @@ def simulate(
     thickness = thickness or ThicknessDynamics()
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
-    require_range("hours", hours, 0, LONGEST_HOURS)
+    require_whole("number of hours", hours, 0, LONGEST_HOURS)
     shape = exposures.doses.shape[:-1]
     # Flat even for a single history: numpy's power of arrays and of numbers differ in the last bit.
-    received = _doses_by_hour(exposures, hours)
+    received = _doses_by_hour(exposures.hours, exposures.doses, hours)
+    thickening_received = _doses_by_hour(exposures.hours, exposures.thickening_doses, hours)
     histories = int(np.prod(shape))
 
     content = np.empty((hours + 1, histories, 3))
@@ -226,9 +270,8 @@ def simulate(
 
     leaving = None
     for hour in range(hours + 1):
-        dose = received.get(hour, 0.0)
-        melanogenesis = melanogenesis.next(dose / mmd, melanin)
-        thickening = thickening.next(dose / med, thickness)
+        melanogenesis = melanogenesis.next(received.get(hour, 0.0) / mmd, melanin)
+        thickening = thickening.next(thickening_received.get(hour, 0.0) / med, thickness)
         response = hill(melanogenesis.signal, melanin.hill_constant, melanin.hill_exponent)
         growth = hill(thickening.signal, thickness.hill_constant, thickness.hill_exponent)
         if leaving is not None:
@@ -268,11 +311,11 @@ class _Signal:
         return _Signal(energy, rate, rate + self.signal * decays.signal_decay)
 
 
-def _doses_by_hour(exposures: Exposures, hours: int) -> dict[int, np.ndarray]:
-    """Dose (histories,) of each hour that has one."""
+def _doses_by_hour(when: np.ndarray, doses, hours: int) -> dict[int, np.ndarray]:
+    """Dose (histories,) of each hour that has one, up to the last hour."""
     received: dict[int, np.ndarray] = {}
-    flat = exposures.doses.reshape(int(np.prod(exposures.doses.shape[:-1])), exposures.hours.size)
-    for hour, dose in zip(exposures.hours.tolist(), flat.T, strict=True):
+    flat = doses.reshape(int(np.prod(doses.shape[:-1])), when.size)
+    for hour, dose in zip(when.tolist(), flat.T, strict=True):
         if hour <= hours:
             received[hour] = received.get(hour, 0.0) + dose
     return received

@@ -26,8 +26,28 @@ FIBRE_RADIUS, FIBRE_VOLUME, FIBRE_INDEX_RATIO = 100e-7, 0.22, 1.127
 SOLID_MELANIN = 1400.0
 """Density of solid melanin in mg/mL, for the reading `colloidal_melanin = solid`."""
 
-MELANOSOME_ANGLE = 5.0
-"""Mean scattering angle of melanosomes in degrees, falling to 0 from 780 to 1300 nm (4.2.1)."""
+SCALE_ANGLE = 5.0
+"""Parameter theta_0 of algorithm 1 in degrees (the thesis calls it the mean angle, which is near
+twice as large); it falls to 0 from 780 to 1300 nm (4.2.1)."""
+
+FIGURES = (
+    "eumelanin",
+    "pheomelanin",
+    "oxyhemoglobin",
+    "deoxyhemoglobin",
+    "carboxyhemoglobin",
+    "methemoglobin",
+    "sulfhemoglobin",
+    "bilirubin",
+    "beta_carotene",
+    "water",
+    "water_refractive_index",
+    "lipids",
+    "keratin",
+    "dna",
+    "urocanic_acid",
+)
+"""Spectral figures that a stack is made from."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +120,7 @@ def readings(chosen: Mapping[str, str] | None = None) -> Mapping[str, str]:
 
 @dataclass(frozen=True)
 class Layer:
-    """A plane layer at one wavelength.
+    """A plane layer at one wavelength: lengths in cm, coefficients in 1/cm.
 
     `encounter` is the attenuation coefficient of melanosomes or complexes (4.3), `semi_minor`
     and `semi_major` the melanosomes' half axes, `complex_radius` that of a complex or 0 where
@@ -163,7 +183,8 @@ def stack(
     Raises
     ------
     InputError
-        If the wavelength lies outside the figures or a reading is unknown.
+        If the wavelength lies outside the figures, a reading is unknown, or a layer is too thin
+        for the melanosomes in it.
     """
     known = known or figures()
     decided = readings(chosen)
@@ -235,13 +256,16 @@ def rayleigh_coefficient(wavelength: float, denominator: str = "printed") -> flo
 def scattering_angle(wavelength: float) -> float:
     """Parameter theta_0 of algorithm 1 in radians: 5 degrees, falling to 0 from 780 to 1300 nm."""
     fade = np.clip((1300.0 - wavelength) / (1300.0 - 780.0), 0.0, 1.0)
-    return float(np.radians(MELANOSOME_ANGLE) * fade)
+    return float(np.radians(SCALE_ANGLE) * fade)
 
 
 def encounter_coefficient(
     volume_fraction: float, semi_minor: float, semi_major: float, complex_radius: float
 ) -> float:
-    """Attenuation coefficient of melanosomes, or of complexes if these have a radius (4.3, 4.4)."""
+    """Attenuation coefficient in 1/cm of melanosomes with half axes in cm (4.3, 4.4).
+
+    With a radius above 0, in cm, that of complexes.
+    """
     if complex_radius > 0.0:
         surface_to_volume = 3.0 / complex_radius
     else:
@@ -346,8 +370,15 @@ def _epidermal_layer(
     if radius > 0.0 and decided["complex_content"] == "packed":
         filled = (radius / semi_minor) * semi_minor**2 * semi_major / radius**3
         content = min(content / filled, 1.0)
+    thickness = getattr(specimen, f"{part}_thickness")
+    thinnest = 2.0 * (radius or semi_minor)
+    if content > 0.0 and thickness < thinnest:
+        raise InputError(
+            f"{part}_thickness is {thickness:g} cm; allowed with melanosomes in that layer is the "
+            f"size of one, {thinnest:g} cm, or more."
+        )
     return Layer(
-        thickness=getattr(specimen, f"{part}_thickness"),
+        thickness=thickness,
         refractive_index=refractive_index(specimen, "epidermis", wavelength, known),
         absorption=float(absorption),
         encounter=encounter_coefficient(content, semi_minor, semi_major, radius),

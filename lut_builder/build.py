@@ -1,6 +1,6 @@
 """Building a table: the light model at every knot of a skin's tanning states."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -8,10 +8,11 @@ import numpy as np
 import hylios
 from hylios.colour import rec709_weights
 from hylios.profile import burley_width
-from hylios.specimen import Specimen, tanned
-from hylios.spectra import estimates_within, figures
-from hylios.table import SkinTable, StateAxes
-from hylios.transport.simulate import DISTANCE_EDGES, Spectrum, spectrum
+from hylios.specimen import SPECIMENS, Specimen, overfull, tanned
+from hylios.spectra import Figures, estimates_within, figures
+from hylios.table import SkinTable
+from hylios.tissue import FIGURES, readings
+from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
 from lut_builder.states import Skin, choose_axes
 
 BANDS_NM = (365.0, 1100.0, 1650.0)
@@ -29,20 +30,20 @@ class Settings:
     ----------
     knots : tuple of int
         Numbers of knots on the principal axes of the tanning states.
-    step : float
-        Spacing in nm of the wavelengths from 400 to 700 nm.
+    visible : tuple of float
+        Ascending wavelengths in nm that make the colour.
     rays : int
         Per wavelength and state.
     """
 
     knots: tuple[int, ...]
-    step: float
+    visible: tuple[float, ...]
     rays: int
 
     @property
     def wavelengths(self) -> np.ndarray:
         """The visible ones, then `BANDS_NM`."""
-        return np.concatenate([np.arange(400.0, 700.0 + 0.5 * self.step, self.step), BANDS_NM])
+        return np.array([*self.visible, *BANDS_NM])
 
     @property
     def states(self) -> int:
@@ -55,9 +56,14 @@ class Settings:
         return self.states * self.wavelengths.size * self.rays
 
 
+def visible_wavelengths(step: float) -> tuple[float, ...]:
+    """Wavelengths from 400 to 700 nm at a spacing in nm."""
+    return tuple(np.arange(400.0, 700.0 + 1e-6 * step, step).tolist())
+
+
 PRESETS = {
-    "small": Settings(knots=(9, 2, 1), step=25.0, rays=50_000),
-    "standard": Settings(knots=(11, 3, 2), step=20.0, rays=60_000),
+    "small": Settings(knots=(9, 2, 1), visible=visible_wavelengths(25.0), rays=50_000),
+    "standard": Settings(knots=(11, 3, 2), visible=visible_wavelengths(20.0), rays=60_000),
 }
 
 
@@ -106,7 +112,9 @@ def tanned_appearance(
     settings: Settings,
     seed: int,
     threads: int | None = None,
-    progress: Callable[[int], None] | None = None,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+    progress: Progress | None = None,
 ) -> Appearance:
     """Appearance of a specimen in a tanning state (4,) by direct simulation."""
     result = spectrum(
@@ -116,6 +124,8 @@ def tanned_appearance(
         rays=settings.rays,
         seed=seed,
         threads=threads,
+        known=known,
+        chosen=chosen,
         progress=progress,
     )
     return appearance(result)
@@ -127,47 +137,84 @@ def build(
     *,
     seed: int = 1,
     threads: int | None = None,
-    progress: Callable[[int], None] | None = None,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+    progress: Progress | None = None,
 ) -> SkinTable:
     """Build a skin's table.
 
     All states use the same random numbers, so that their noise is alike and a tan over time is
-    smooth. `progress` is told the rays of each piece of work as it ends.
+    smooth. `known` and `chosen` are the spectral figures and readings, the project's own by
+    default; `progress` is told the rays of each piece of work as it ends.
     """
+    known = known or figures()
     axes = choose_axes(made_for, settings.knots)
     states = axes.knot_states().reshape(-1, 4)
     entries = [
-        tanned_appearance(made_for.specimen, state, settings, seed, threads, progress)
+        tanned_appearance(
+            made_for.specimen,
+            state,
+            settings,
+            seed,
+            threads=threads,
+            known=known,
+            chosen=chosen,
+            progress=progress,
+        )
         for state in states
     ]
     values = np.array([entry.values for entry in entries])
     noise = np.mean([np.diag(entry.colour_covariance) for entry in entries], axis=0)
+    cut = sum(overfull(made_for.specimen, state[:3], state[3]) for state in states)
     return SkinTable(
         axes=axes,
         values=values.reshape(*axes.shape, *values.shape[1:]),
-        provenance=_provenance(made_for, settings, seed, axes, np.sqrt(noise)),
+        provenance={
+            **_provenance(made_for, settings, seed, known, readings(chosen)),
+            "colour_standard_error": np.sqrt(noise).tolist(),
+            "states_with_melanin_cut": int(cut),
+        },
     )
 
 
 def _provenance(
-    made_for: Skin, settings: Settings, seed: int, axes: StateAxes, noise: np.ndarray
+    made_for: Skin,
+    settings: Settings,
+    seed: int,
+    known: Figures,
+    decided: Mapping[str, str],
 ) -> dict:
-    wavelengths = settings.wavelengths
+    own = figures()
     return {
         "software": f"skin-tan {hylios.__version__}",
-        "specimen": made_for.specimen.name,
+        "specimen": _described(made_for.specimen),
         "specimen_parameters": asdict(made_for.specimen),
+        "untanned_state": "melanin of each layer by the tanning set's steady state (5.16)",
         "pigmentation": made_for.pigmentation,
         "mmd_sed": made_for.mmd,
         "med_sed": made_for.med,
         "solver": "random walk",
-        "wavelengths_nm": wavelengths[: -len(BANDS_NM)].tolist(),
+        "readings": dict(decided),
+        "own_figures": {
+            name: known[name].source for name in FIGURES if known[name] is not own[name]
+        },
+        "wavelengths_nm": list(settings.visible),
         "bands_nm": list(BANDS_NM),
         "angle_deg": ANGLE,
         "rays": settings.rays,
         "seed": seed,
         "colour": "linear Rec.709, D65, CIE 1931 2 degree",
         "profile_width_unit": "mm",
-        "colour_standard_error": noise.tolist(),
-        "estimated_figures": estimates_within(figures(), wavelengths),
+        "estimated_figures": estimates_within(known, FIGURES, settings.wavelengths),
     }
+
+
+def _described(specimen: Specimen) -> str:
+    """The specimen's name, with what was set in it."""
+    usual = SPECIMENS.get(specimen.name)
+    changes = [
+        f"{name}={value}"
+        for name, value in asdict(specimen).items()
+        if usual is not None and value != getattr(usual, name)
+    ]
+    return f"{specimen.name} with {', '.join(changes)}" if changes else specimen.name

@@ -1,16 +1,16 @@
 """Checking a table: states between its knots, simulated directly."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hylios.colour import difference
-from hylios.errors import InputError
+from hylios.errors import InputError, require_whole
 from hylios.specimen import Specimen
-from hylios.table import SkinTable
+from hylios.table import PLANES, SkinTable
+from hylios.transport.simulate import MOST_RAYS, Progress
 from lut_builder.build import Settings, tanned_appearance
-from lut_builder.states import Skin, reachable_states
+from lut_builder.states import Skin, reachable_states, skin
 
 NOISE_DRAWS = 200
 
@@ -35,8 +35,8 @@ class Check:
 
     @property
     def noise_share(self) -> float:
-        """Share of the mean squared difference that is noise, 0 to 1."""
-        return float(min(1.0, np.mean(self.noise**2) / np.mean(self.differences**2)))
+        """Mean square of the noise over that of the differences; above 1 only by chance."""
+        return float(np.mean(self.noise**2) / np.mean(self.differences**2))
 
 
 def skin_of(table: SkinTable) -> Skin:
@@ -45,14 +45,31 @@ def skin_of(table: SkinTable) -> Skin:
     Raises
     ------
     InputError
-        If the header lacks a part of it.
+        If the header lacks a part of it or a part cannot be used.
     """
     made = table.provenance
     try:
         specimen = Specimen(**made["specimen_parameters"])
-        return Skin(specimen, made["pigmentation"], made["mmd_sed"], made["med_sed"])
-    except (KeyError, TypeError) as error:
-        raise InputError(f"the table does not say for which skin it was made: {error}.") from error
+        return skin(specimen, made["pigmentation"], float(made["mmd_sed"]), float(made["med_sed"]))
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"the table does not say for which skin it was made: {error}") from error
+
+
+def settings_of(table: SkinTable) -> Settings:
+    """How a table was built, from its header.
+
+    Raises
+    ------
+    InputError
+        If the header does not say so.
+    """
+    made = table.provenance
+    try:
+        visible = tuple(float(each) for each in made["wavelengths_nm"])
+        rays = require_whole("the table's number of rays", made["rays"], 1, MOST_RAYS)
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"the table does not say how it was built: {error}") from error
+    return Settings(knots=table.axes.shape, visible=visible, rays=rays)
 
 
 def check(
@@ -62,30 +79,46 @@ def check(
     rays: int,
     seed: int,
     threads: int | None = None,
-    progress: Callable[[int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Check:
     """Simulate reachable states directly and compare their colour with the table's.
 
-    States come from schedules and random numbers other than those that made the table.
+    States come from schedules other than those that chose the table's axes; each has random
+    numbers of its own, other than the table's.
+
+    Raises
+    ------
+    InputError
+        If the table's header does not say for what skin and how it was built.
     """
-    made_for = skin_of(table)
-    settings = check_settings(table, rays)
+    made_for, made_with = skin_of(table), settings_of(table)
+    settings = replace(made_with, rays=rays)
     random = np.random.default_rng(seed)
-    reachable = reachable_states(made_for, 100, seed)
-    tanned_ones = reachable[np.abs(reachable[:, 3] - 1.0) + np.abs(reachable[:, :3].sum(1) - 1) > 0]
-    states = random.choice(tanned_ones, count, replace=False)
+    states = random.choice(_between_knots(table, reachable_states(made_for, 100, seed)), count)
     differences, noise = [], []
-    for state in states:
-        entry = tanned_appearance(made_for.specimen, state, settings, seed, threads, progress)
-        simulated = entry.values[1]
+    for index, state in enumerate(states):
+        own_seed = int(np.random.SeedSequence((seed, index)).generate_state(1)[0])
+        entry = tanned_appearance(
+            made_for.specimen,
+            state,
+            settings,
+            own_seed,
+            threads=threads,
+            chosen=table.provenance.get("readings"),
+            progress=progress,
+        )
+        simulated = entry.values[PLANES.index("total_colour")]
         differences.append(difference(table.plane("total_colour", state), simulated))
-        covariance = entry.colour_covariance * (1.0 + rays / table.provenance["rays"])
+        covariance = entry.colour_covariance * (1.0 + rays / made_with.rays)
         draws = random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS)
         noise.append(difference(simulated + draws, np.broadcast_to(simulated, draws.shape)))
     return Check(states, np.array(differences), np.array(noise))
 
 
-def check_settings(table: SkinTable, rays: int) -> Settings:
-    """Settings with a table's own wavelengths."""
-    wavelengths = table.provenance["wavelengths_nm"]
-    return Settings(knots=table.axes.shape, step=wavelengths[1] - wavelengths[0], rays=rays)
+def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
+    """Those of the states (N, 4) that are no knot of the table."""
+    knots = np.log(table.axes.knot_states().reshape(-1, 4))
+    apart = np.full(len(states), np.inf)
+    for knot in knots:
+        apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))
+    return states[apart > 1e-6]

@@ -1,24 +1,29 @@
 """The command `lut-builder`: builds, describes and checks tables of skin that tans."""
 
 import argparse
+import os
 import sys
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from tqdm import tqdm
 
-from hylios.command_line import named_values, number, run
-from hylios.errors import InputError, require_range
-from hylios.specimen import specimen, with_values
+from hylios.errors import InputError, require_range, require_whole
+from hylios.shell import add_skin_arguments, chosen_skin, number, run
 from hylios.table import PLANES
 from hylios.tanning import PIGMENTATIONS
-from lut_builder.build import PRESETS, Settings, build
-from lut_builder.check import check, check_settings
-from lut_builder.exr import read_table, write_table
-from lut_builder.states import skin
+
+if TYPE_CHECKING:
+    from lut_builder.build import Settings
+
+# numba, colour-science and OpenImageIO take a second or more: only the commands import them.
+
+MOST_KNOTS = 100
+LEAST_RAYS, MOST_RAYS = 100, 10**9
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -33,10 +38,7 @@ def _parser() -> argparse.ArgumentParser:
 
     building = commands.add_parser("build", help="simulate a skin's tanning states into a table")
     building.set_defaults(command=_build)
-    building.add_argument("--specimen", default="S3", help="S1 to S4 of table 6.1 (default S3)")
-    building.add_argument(
-        "--set", action="append", default=[], metavar="NAME=VALUE", help="set a parameter"
-    )
+    add_skin_arguments(building)
     building.add_argument(
         "--pigmentation",
         choices=list(PIGMENTATIONS),
@@ -44,12 +46,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     building.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED")
     building.add_argument("--med", type=float, help="minimal erythema dose, SED")
-    building.add_argument("--preset", choices=list(PRESETS), default="standard")
+    building.add_argument("--preset", choices=["small", "standard"], default="standard")
     building.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
     building.add_argument("--step", type=float, help="spacing of visible wavelengths, nm")
     building.add_argument("--rays", type=int, help="rays per wavelength and state")
-    building.add_argument("--seed", type=int, default=1)
-    building.add_argument("--threads", type=int, help="default: all cores")
     building.add_argument("--force", action="store_true", help="replace an existing file")
     building.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.exr")
 
@@ -62,82 +62,114 @@ def _parser() -> argparse.ArgumentParser:
     checking.add_argument("table", type=Path)
     checking.add_argument("--states", type=int, default=20, help="states between the knots")
     checking.add_argument("--rays", type=int, help="rays per wavelength (default: the table's)")
-    checking.add_argument("--seed", type=int, default=1001)
+    checking.add_argument("--seed", type=int, default=1)
     checking.add_argument("--threads", type=int, help="default: all cores")
     return parser
 
 
 @contextmanager
-def _progress(total: int, what: str) -> Iterator:
+def _progress(total: int, what: str) -> Iterator[Callable[[int], object]]:
+    from tqdm import tqdm
+
     with tqdm(total=total, desc=what, unit="ray", unit_scale=True, mininterval=0.5) as bar:
         yield bar.update
 
 
-def _settings(asked: argparse.Namespace) -> Settings:
+def _settings(asked: argparse.Namespace) -> "Settings":
+    from lut_builder.build import PRESETS, visible_wavelengths
+
     settings = PRESETS[asked.preset]
-    if asked.knots:
-        counts = tuple(int(number(part, "knots")) for part in asked.knots.split(","))
-        require_range("number of axes", len(counts), 1, 4)
-        for count in counts:
-            require_range("knots of an axis", count, 1, 100)
-        settings = replace(settings, knots=counts)
+    if asked.knots is not None:
+        counts = [number(part, "number of knots") for part in asked.knots.split(",")]
+        require_whole("number of axes", len(counts), 1, 4)
+        knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
+        settings = replace(settings, knots=tuple(knots))
     if asked.step is not None:
-        settings = replace(settings, step=require_range("step", asked.step, 1.0, 100.0, "nm"))
+        step = require_range("step", asked.step, 1.0, 100.0, "nm")
+        settings = replace(settings, visible=visible_wavelengths(step))
     if asked.rays is not None:
-        require_range("number of rays", asked.rays, 100, 1e9)
-        settings = replace(settings, rays=asked.rays)
+        rays = require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
+        settings = replace(settings, rays=rays)
     return settings
 
 
+def _require_target(target: Path, replacing: bool) -> None:
+    """Raise InputError where the table could not be written in the end."""
+    if target.suffix != ".exr":
+        raise InputError(f"the table is to be {target}; its name must end in .exr.")
+    if target.is_dir() or (target.exists() and not replacing):
+        hint = "it is a folder" if target.is_dir() else "--force replaces it"
+        raise InputError(f"{target} exists already; {hint}.")
+    try:
+        with tempfile.TemporaryFile(dir=target.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"{target} cannot be written: {error.strerror}.") from error
+
+
 def _build(asked: argparse.Namespace) -> None:
-    target = asked.output
-    if target.exists() and not asked.force:
-        raise InputError(f"{target} exists already; --force replaces it.")
-    if not target.parent.is_dir():
-        raise InputError(f"the folder {target.parent} does not exist.")
-    values = {
-        name: number(text, name) for name, text in named_values(asked.set, "a setting").items()
-    }
-    for name in ("mmd", "med"):
-        if getattr(asked, name) is not None:
-            require_range(name.upper(), getattr(asked, name), 0.01, 1000.0, "SED")
-    made_for = skin(
-        with_values(specimen(asked.specimen), values), asked.pigmentation, asked.mmd, asked.med
-    )
+    _require_target(asked.output, asked.force)
+    specimen, known, chosen = chosen_skin(asked)
+
+    from lut_builder.build import build
+    from lut_builder.exr import write_table
+    from lut_builder.states import skin
+
+    made_for = skin(specimen, asked.pigmentation, asked.mmd, asked.med)
     settings = _settings(asked)
     with _progress(settings.total_rays, f"table of {settings.states} states") as progress:
-        table = build(made_for, settings, seed=asked.seed, threads=asked.threads, progress=progress)
-    write_table(target, table)
-    print(f"wrote {target}: {target.stat().st_size / 1000:.1f} KB")
+        table = build(
+            made_for,
+            settings,
+            seed=asked.seed,
+            threads=asked.threads,
+            known=known,
+            chosen=chosen,
+            progress=progress,
+        )
+    write_table(asked.output, table)
+    cut = table.provenance["states_with_melanin_cut"]
+    if cut:
+        print(f"note: {cut} of {settings.states} states would overfill a layer with melanin; cut")
+    print(f"wrote {asked.output}: {os.path.getsize(asked.output) / 1000:.1f} KB")
 
 
 def _info(asked: argparse.Namespace) -> None:
+    from lut_builder.exr import read_table
+
     table = read_table(asked.table)
     for name, value in table.provenance.items():
-        if name == "specimen_parameters":
-            print("specimen_parameters:")
+        if isinstance(value, dict) and value:
+            print(f"{name}:")
             print("\n".join(f"  {each}: {setting}" for each, setting in value.items()))
         elif name == "estimated_figures":
-            print("estimated_figures:")
+            print(f"{name}:")
             print("\n".join(f"  {line}" for line in value))
         else:
             print(f"{name}: {value}")
     print(f"planes: {', '.join(PLANES)}")
-    for number_of, (direction, knots) in enumerate(
-        zip(table.axes.basis.T, table.axes.knots, strict=True), start=1
-    ):
+    directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
+    for axis, (direction, knots) in enumerate(directions, start=1):
         print(
-            f"axis {number_of}: {np.round(direction, 3)} in ln of (basale, spinosum, "
-            f"granulosum, thickness) to the untanned, knots {np.round(knots, 3)}"
+            f"axis {axis}: {np.round(direction, 3)} in ln of (basale, spinosum, granulosum, "
+            f"thickness) to the untanned, knots {np.round(knots, 3)}"
         )
 
 
 def _check(asked: argparse.Namespace) -> None:
+    require_whole("number of states", asked.states, 1, 10_000)
+    require_whole("seed", asked.seed, 0, 2**32 - 1)
+    if asked.threads is not None:
+        require_whole("number of threads", asked.threads, 1, 1024)
+
+    from lut_builder.check import check, settings_of
+    from lut_builder.exr import read_table
+
     table = read_table(asked.table)
-    require_range("number of states", asked.states, 1, 10_000)
-    rays = table.provenance["rays"] if asked.rays is None else asked.rays
-    require_range("number of rays", rays, 100, 1e9)
-    total = asked.states * check_settings(table, rays).wavelengths.size * rays
+    settings = settings_of(table)
+    rays = settings.rays if asked.rays is None else asked.rays
+    require_whole("number of rays", rays, LEAST_RAYS, MOST_RAYS)
+    total = asked.states * settings.wavelengths.size * rays
     with _progress(total, f"{asked.states} states directly") as progress:
         result = check(
             table,
@@ -151,7 +183,10 @@ def _check(asked: argparse.Namespace) -> None:
     print(f"mean CIEDE2000 between table and simulation: {result.differences.mean():.3f}")
     print(f"largest: {result.differences.max():.3f}")
     print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
-    print(f"share of the mean squared difference that is noise: {result.noise_share:.0%}")
+    print(
+        "share of the mean squared difference that noise explains: "
+        f"{result.noise_share:.0%} (over 100 % by chance)"
+    )
 
 
 if __name__ == "__main__":

@@ -34,9 +34,10 @@ def write_table(path: Path, table: SkinTable) -> None:
     beside = Path(name)
     try:
         output = oiio.ImageOutput.create(name)
-        if not (output.open(name, specification) and output.write_image(pixels)):
+        written = output.open(name, specification) and output.write_image(pixels)
+        if not (output.close() and written):
             raise InputError(f"the table {path} cannot be written: {output.geterror()}.")
-        output.close()
+        _require_written(path, beside, header)
         beside.chmod(0o666 & ~_umask())
         os.replace(beside, path)
     except OSError as error:
@@ -59,6 +60,16 @@ def read_table(path: Path) -> SkinTable:
     if image.has_error or pixels is None:
         raise InputError(f"the table {path} cannot be read: {image.geterror()}.")
     return from_pixels(np.asarray(pixels), header)
+
+
+def _require_written(path: Path, beside: Path, header: str) -> None:
+    """Raise InputError unless the file reads back: a full disk goes unnoticed otherwise."""
+    try:
+        kept = header_text(beside) == header and read_table(beside) is not None
+    except InputError:
+        kept = False
+    if not kept:
+        raise InputError(f"the table {path} cannot be written: it does not read back.")
 
 
 def _umask() -> int:

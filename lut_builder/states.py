@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.specimen import Specimen
+from hylios.errors import InputError, require_range
+from hylios.specimen import USUAL_PIGMENTATION, Specimen
 from hylios.table import StateAxes
 from hylios.tanning import (
     PIGMENTATIONS,
@@ -52,23 +53,34 @@ class Skin:
         return PIGMENTATIONS[self.pigmentation]
 
 
-USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
-"""Tanning set of each specimen, by the caption of table 6.1."""
-
-
 def skin(
     specimen: Specimen,
     pigmentation: str | None = None,
     mmd: float | None = None,
     med: float | None = None,
 ) -> Skin:
-    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2."""
+    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
+
+    Melanin outside the equations' range, such as none at all, counts as the range's end.
+
+    Raises
+    ------
+    InputError
+        If a minimal dose is out of range or there is no such tanning set.
+    """
     level = min(max(specimen.pigmentation, 0.013), 0.43)
+    mmd = minimal_melanogenesis_dose(level) if mmd is None else mmd
+    med = minimal_erythema_dose(level) if med is None else med
+    pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
+    if pigmentation not in PIGMENTATIONS:
+        raise InputError(
+            f"pigmentation is {pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
+        )
     return Skin(
         specimen=specimen,
-        pigmentation=pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low"),
-        mmd=mmd or minimal_melanogenesis_dose(level),
-        med=med or minimal_erythema_dose(level),
+        pigmentation=pigmentation,
+        mmd=require_range("MMD", mmd, 0.01, 1000.0, "SED"),
+        med=require_range("MED", med, 0.01, 1000.0, "SED"),
     )
 
 

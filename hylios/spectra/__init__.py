@@ -6,7 +6,7 @@ where it is an estimate. Any figure can be replaced by a file of the user's own.
 
 import csv
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -16,8 +16,6 @@ from types import MappingProxyType
 import numpy as np
 
 from hylios.errors import InputError
-
-SHORTEST_NM, LONGEST_NM = 250.0, 2500.0
 
 
 @dataclass(frozen=True)
@@ -113,11 +111,11 @@ def replaced(known: Figures, name: str, path: Path) -> Figures:
     return MappingProxyType({**known, name: own})
 
 
-def estimates_within(known: Figures, wavelengths: np.ndarray) -> list[str]:
-    """One line for each figure that is an estimate at some of the wavelengths."""
+def estimates_within(known: Figures, names: Iterable[str], wavelengths: np.ndarray) -> list[str]:
+    """One line for each part of the named figures that is an estimate at some wavelength, nm."""
     return [
-        f"{figure.name}, {part.first:g} to {part.last:g} nm: {part.what}"
-        for figure in known.values()
-        for part in figure.estimates
+        f"{name}, {part.first:g} to {part.last:g} nm: {part.what}"
+        for name in names
+        for part in known[name].estimates
         if np.any((wavelengths >= part.first) & (wavelengths <= part.last))
     ]

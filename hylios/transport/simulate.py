@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, require_range, require_whole
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack, stack
@@ -26,6 +26,8 @@ from hylios.transport.walk import (
 
 CHUNK = 16384
 """Rays of one stream of random numbers; fixed, so that results do not depend on the threads."""
+
+MOST_RAYS = 10**10
 
 DISTANCE_EDGES = np.concatenate([[0.0], np.geomspace(1e-3, 100.0, 161)])
 """Edges in mm of the bins in which exit distances are counted; the last bin is open."""
@@ -78,7 +80,7 @@ def trace(layers: Stack, *, rays: int, angle: float = 0.0, key: tuple[int, ...] 
         If a ray was lost: no way out and nothing that absorbs.
     """
     require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
-    require_range("number of rays", rays, 1, 1e12)
+    rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     outcome, layer = np.empty(rays, np.int8), np.empty(rays, np.int8)
     place, direction = np.empty((rays, 2)), np.empty((rays, 3))
     radians = np.radians(angle)
@@ -134,11 +136,15 @@ class Spectrum:
 
     @property
     def standard_error(self) -> np.ndarray:
-        """Standard error of the reflectance, (W,): binomial."""
-        return np.sqrt(self.total * (1.0 - self.total) / self.rays)
+        """Standard error of the reflectance, (W,): binomial, with one more ray of either fate.
+
+        So it is not 0 where no ray, or every ray, came back (Laplace's rule of succession).
+        """
+        share = (self.total * self.rays + 1.0) / (self.rays + 2.0)
+        return np.sqrt(share * (1.0 - share) / self.rays)
 
 
-Progress = Callable[[int], None]
+Progress = Callable[[int], object]
 """Told, as each piece of work ends, how many rays it had."""
 
 
@@ -175,27 +181,27 @@ def spectrum(
     chosen : mapping, optional
         Readings of the thesis's text that differ from the defaults (`hylios.tissue.READINGS`).
     as_printed : bool
-        Walk every path inside a melanosome instead of using its tabulated survival. The same
-        model, some three times slower.
+        Walk every path inside a melanosome instead of using its tabulated survival: the same
+        model (see `hylios.transport.survival` for how nearly), slower.
 
     Raises
     ------
     InputError
         If a wavelength, the angle or the number of rays is out of range.
     """
-    asked = np.array(list(wavelengths), dtype=float)
-    if asked.size == 0:
-        raise InputError("no wavelengths are given; at least one is needed.")
-    require_range("number of rays", rays, 1, 1e12)
-    require_range("seed", seed, 0, 2**63)
+    asked = np.atleast_1d(np.asarray(wavelengths, dtype=float))
+    if asked.ndim != 1 or asked.size == 0:
+        raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
+    rays = require_whole("number of rays", rays, 1, MOST_RAYS)
+    seed = require_whole("seed", seed, 0, 2**63)
+    threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
     stacks = [stack(specimen, each, known=known, chosen=chosen) for each in asked]
     if not as_printed:
         stacks = [with_survival(each) for each in stacks]
-    chunks = [(first, min(CHUNK, rays - first)) for first in range(0, rays, CHUNK)]
     work = (
-        (row, stacks[row], size, (seed, round(asked[row] * 1000), number))
+        (row, stacks[row], min(CHUNK, rays - first), (seed, round(asked[row] * 1000), first))
         for row in range(asked.size)
-        for number, (_, size) in enumerate(chunks)
+        for first in range(0, rays, CHUNK)
     )
     depth = len(stacks[0].layers)
     counts = np.zeros((asked.size, 2 + 2 * depth), int)
@@ -206,7 +212,7 @@ def spectrum(
         traced = trace(layers, rays=size, angle=angle, key=key)
         return row, size, _tally(traced, depth), _exit_counts(traced)
 
-    for row, size, tally, counted in _in_threads(piece, work, threads or os.cpu_count() or 1):
+    for row, size, tally, counted in _in_threads(piece, work, threads):
         counts[row] += tally
         exits[row] += counted
         if progress:

@@ -4,15 +4,19 @@ What a ray meets inside a melanosome (section 4.2.1) does not depend on where it
 orientation and the point hit are drawn anew. So the probability of leaving unabsorbed is one
 number for a size, a shape, an absorption coefficient and a ratio of refractive indices. It is the
 mean of exp(-mu L) over the lengths L of paths through a melanosome that absorbs nothing.
+
+That is exact where melanosomes are seldom drawn again for overlapping; drawing again favours some
+orientations. Measured in S4 with 60 % melanosomes: 1.7 % more absorption in them than walked; at
+its own 10 % no difference is seen.
 """
 
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
 
 from hylios.tissue import Stack
+from hylios.transport.compiling import kernel
 from hylios.transport.generator import stream
 from hylios.transport.melanosome import facing_point, long_axis, on_ball, path_in_melanosome
 
@@ -26,16 +30,22 @@ RATIO_STEP = 0.02
 """Spacing of the refractive index ratios between which the survival is interpolated."""
 
 
-@njit(nogil=True, cache=True)
-def _path_lengths(state, half_axes, inside, outside, bent, lengths):
-    """Lengths of random paths through a melanosome, without absorption."""
-    ray = (0.0, 0.0, 1.0)
-    for index in range(lengths.size):
-        axis = long_axis(state, ray, half_axes)
-        point = facing_point(state, on_ball(ray, axis, half_axes))
-        lengths[index] = path_in_melanosome(
-            state, ray, axis, point, half_axes, np.inf, inside, outside, bent
-        )
+@kernel
+def walk_paths(sources):
+    """The compiled kernel; its arguments and results are those of `trace`."""
+
+    def trace(state, half_axes, inside, outside, bent, lengths):
+        """Lengths of random paths through a melanosome, without absorption; written."""
+        _ = sources  # makes the kernel a closure over it, see `compiling`
+        ray = (0.0, 0.0, 1.0)
+        for index in range(lengths.size):
+            axis = long_axis(state, ray, half_axes)
+            point = facing_point(state, on_ball(ray, axis, half_axes))
+            lengths[index] = path_in_melanosome(
+                state, ray, axis, point, half_axes, np.inf, inside, outside, bent
+            )
+
+    return trace
 
 
 @lru_cache(maxsize=256)
@@ -52,7 +62,7 @@ def path_lengths(aspect: float, ratio: float, bent: bool) -> np.ndarray:
         Whether rays are refracted as they enter.
     """
     lengths = np.empty(PATHS)
-    _path_lengths(stream(0), (1.0, 1.0 / aspect), ratio, 1.0, bent, lengths)
+    walk_paths(stream(0), (1.0, 1.0 / aspect), ratio, 1.0, bent, lengths)
     means = np.sort(lengths).reshape(BINS, -1).mean(axis=1)
     means.setflags(write=False)
     return means

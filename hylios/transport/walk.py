@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from hylios.tissue import Stack
+from hylios.transport.compiling import kernel
 from hylios.transport.generator import uniform
 from hylios.transport.interfaces import meet_interface, meet_surface
 from hylios.transport.melanosome import (
@@ -103,36 +104,6 @@ INTERFACE, ABSORBER, FIBRES, SCATTERER, MELANOSOME = range(5)
 """What a ray meets next."""
 
 UP = (0.0, 0.0, -1.0)
-
-
-@njit(nogil=True, cache=True)
-def walk(layers, surroundings, readings, sine, cosine, state, outcome, end_layer, place, direction):
-    """Trace one ray for each element of `outcome`.
-
-    Parameters
-    ----------
-    layers, surroundings, readings
-        From `kernel_arguments`.
-    sine, cosine : float
-        Of the angle of incidence; light arrives at the origin along (sine, 0, cosine).
-    state : (4,) uint64 array
-        Of the generator; advanced.
-    outcome : (N,) int8 array, written
-        How the ray ended.
-    end_layer : (N,) int8 array, written
-        Layer in which it was absorbed; -1 if it was not.
-    place : (N, 2) float array, written
-        x and y in cm where it ended.
-    direction : (N, 3) float array, written
-        Its direction at the end.
-    """
-    for index in range(outcome.size):
-        end, layer, position, ray = _walk_one(
-            layers, surroundings, readings, (sine, 0.0, cosine), state
-        )
-        outcome[index], end_layer[index] = end, layer
-        place[index, 0], place[index, 1] = position[0], position[1]
-        direction[index, 0], direction[index, 1], direction[index, 2] = ray
 
 
 @njit
@@ -293,3 +264,41 @@ def _leave_floor(state, ray, mirrored):
     while ray[2] >= 0.0:
         ray = turned(state, about, lambertian_cosine(state))
     return ray
+
+
+@kernel
+def walk(sources):
+    """The compiled kernel; its arguments and results are those of `trace`."""
+
+    def trace(
+        layers, surroundings, readings, sine, cosine, state, outcome, end_layer, place, direction
+    ):
+        """Trace one ray for each element of `outcome`.
+
+        Parameters
+        ----------
+        layers, surroundings, readings
+            From `kernel_arguments`.
+        sine, cosine : float
+            Of the angle of incidence; light arrives at the origin along (sine, 0, cosine).
+        state : (4,) uint64 array
+            Of the generator; advanced.
+        outcome : (N,) int8 array, written
+            How the ray ended.
+        end_layer : (N,) int8 array, written
+            Layer in which it was absorbed; -1 if it was not.
+        place : (N, 2) float array, written
+            x and y in cm where it ended.
+        direction : (N, 3) float array, written
+            Its direction at the end.
+        """
+        _ = sources  # makes the kernel a closure over it, see `compiling`
+        for index in range(outcome.size):
+            end, layer, position, ray = _walk_one(
+                layers, surroundings, readings, (sine, 0.0, cosine), state
+            )
+            outcome[index], end_layer[index] = end, layer
+            place[index, 0], place[index, 1] = position[0], position[1]
+            direction[index, 0], direction[index, 1], direction[index, 2] = ray
+
+    return trace

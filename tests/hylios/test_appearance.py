@@ -116,7 +116,9 @@ def test_table_survives_its_pixels(table):
         (lambda header: header["axes"]["knots"][0].reverse(), "axes are not"),
         (lambda header: header["axes"]["knots"][0].pop(), "its header describes"),
         (lambda header: header["axes"]["untanned"].pop(), "axes are not"),
-        (lambda header: header.update(checksum="0"), "do not match the checksum"),
+        (lambda header: header.update(checksum="0"), "does not match the checksum"),
+        (lambda header: header["provenance"].update(rays=8), "does not match the checksum"),
+        (lambda header: header["axes"]["untanned"].reverse(), "does not match the checksum"),
     ],
 )
 def test_a_header_that_does_not_fit_is_refused(table, change, sentence):
@@ -134,3 +136,15 @@ def test_changed_pixels_are_refused(table):
         from_pixels(pixels, text)
     with pytest.raises(InputError, match="not JSON"):
         from_pixels(pixels, "{")
+
+
+@pytest.mark.parametrize("melanin", [0.0, -1.0, np.nan, np.inf])
+def test_a_state_that_is_none_is_refused(table, melanin):
+    with pytest.raises(InputError, match="not above 0 and finite"):
+        table.lookup(np.array([melanin, 0.3, 0.2, 1.0]))
+
+
+@pytest.mark.parametrize("wavelengths", [[700.0, 400.0], [400.0, 400.0], [400.0, np.nan], []])
+def test_colour_needs_ascending_wavelengths(wavelengths):
+    with pytest.raises(InputError, match="must be a list of ascending numbers"):
+        colour.rec709_weights(np.array(wavelengths))

@@ -4,6 +4,7 @@ import csv
 import io
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -64,6 +65,11 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --wavelengths 700:400:5", "expected FIRST:LAST:STEP"),
         ("reflectance --wavelengths 200", "allowed is 250 to 2500 nm"),
         ("reflectance --angle 91", "allowed is 0 to 89.99 degrees"),
+        ("reflectance --threads 0", "number of threads is 0"),
+        ("reflectance --wavelengths nan", "wavelength nan nm is outside the figure"),
+        ("reflectance --wavelengths 400,700:100", "expected FIRST:LAST:STEP"),
+        ("reflectance --set melanosome_arrangement=odd", "allowed is individual, complexes"),
+        ("reflectance --set papillary_blood=nan", "papillary_blood is nan %"),
         ("reflectance --rays 0", "number of rays is 0"),
         ("reflectance --seed -1", "seed is -1"),
         ("reflectance --figure keratin=/none.csv", "the figure in /none.csv cannot be read"),
@@ -71,7 +77,9 @@ def test_tan_prints_every_hour(capsys):
         ("tan --dose 0:-3", "a dose is negative"),
         ("tan --dose 0.5:3", "hours of exposure are"),
         ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
-        ("tan --hours -1", "hours is -1"),
+        ("tan --hours -1", "number of hours is -1"),
+        ("tan --dose inf:30", "hours of exposure are"),
+        ("tan --dose 1e19:30", "hours of exposure are"),
     ],
 )
 def test_bad_input_is_one_sentence_and_status_2(capsys, arguments, sentence):
@@ -101,3 +109,17 @@ def test_total_of_the_steady_state_is_one(capsys):
     assert main(["tan", "--hours", "48"]) == 0
     totals = [float(row["total"]) for row in rows(capsys.readouterr().out)]
     assert np.allclose(totals, 1.0, atol=1e-9)
+
+
+def test_the_arrangement_of_melanosomes_can_be_set(capsys):
+    arguments = ["reflectance", "--wavelengths", "500", "--rays", "500"]
+    arguments += ["--set", "melanosome_arrangement=compact_complexes"]
+    assert main(arguments) == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_is_one_sentence():
+    command = f"{sys.executable} -m hylios.cli tan --hours 20000 > /dev/full"
+    ended = subprocess.run(command, shell=True, capture_output=True, text=True)
+    assert ended.returncode == 2
+    assert ended.stderr == "error: [Errno 28] No space left on device.\n"

@@ -1,10 +1,14 @@
 """Specimens, their tissue and the spectral figures against the thesis's printed numbers."""
 
+import csv
+import io
+from importlib.resources import files
+
 import numpy as np
 import pytest
 
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS, parameters, specimen, with_values
+from hylios.specimen import SPECIMENS, overfull, parameters, specimen, with_values
 from hylios.spectra import estimates_within, figures, replaced
 from hylios.tissue import (
     blood_coefficient,
@@ -150,7 +154,7 @@ def test_figures_cover_the_model_and_name_their_sources():
 
 
 def test_estimates_stay_marked():
-    lines = estimates_within(figures(), np.array([1700.0]))
+    lines = estimates_within(figures(), figures(), np.array([1700.0]))
     assert any(line.startswith("lipids") and "ESTIMATE" in line for line in lines)
     assert any("PROVISIONAL" in line for line in lines)
     assert not any(line.startswith("water,") for line in lines)
@@ -185,3 +189,60 @@ def test_bad_parameters_are_named():
         specimen("S9")
     with pytest.raises(InputError, match="corneum_thickness is nan cm"):
         with_values(SPECIMENS["S3"], {"corneum_thickness": float("nan")})
+
+
+def absorption_by_hand(specimen, row):
+    """Absorption coefficients of the six layers and of melanin, from a row of figures.csv.
+
+    Written from section 4.1, table 6.2 and appendix A: everything that is not melanin or blood is
+    the same for all specimens.
+    """
+    f = {name: float(text) for name, text in row.items()}
+    decadic = np.log(10.0)
+    melanin = decadic * (
+        f["eumelanin"] * specimen.eumelanin_concentration
+        + f["pheomelanin"] * specimen.pheomelanin_concentration
+    )
+    oxygenated = specimen.oxygenated_blood / 100
+    hemoglobin = 147.0 * (
+        oxygenated * f["oxyhemoglobin"] + (1 - oxygenated) * f["deoxyhemoglobin"]
+    ) + 1.5 * (f["carboxyhemoglobin"] + f["methemoglobin"])
+    blood = decadic * (
+        hemoglobin / 66500 + f["beta_carotene"] * 7.0e-5 / 537 + f["bilirubin"] * 0.003 / 585
+    )
+    carotene = decadic * f["beta_carotene"] * 2.1e-4 / 537
+    corneum = 0.35 * f["water"] + 0.35 * f["lipids"] + 0.65 * f["keratin"] + carotene
+    corneum += decadic * f["urocanic_acid"] * 0.01
+    epidermis = 0.60 * f["water"] + 0.20 * f["lipids"] + 0.185 * f["dna"] + carotene
+    colloidal = [
+        specimen.granulosum_colloidal_melanin,
+        specimen.spinosum_colloidal_melanin,
+        specimen.basale_colloidal_melanin,
+    ]
+    dermis = [
+        0.75 * f["water"] + 0.151 * f["lipids"] + specimen.papillary_blood / 100 * blood,
+        0.75 * f["water"] + 0.1733 * f["lipids"] + specimen.reticular_blood / 100 * blood,
+    ]
+    layers = [corneum, *(epidermis + percent / 100 * melanin for percent in colloidal), *dermis]
+    return layers, melanin
+
+
+@pytest.mark.parametrize("name", list(SPECIMENS))
+@pytest.mark.parametrize("wavelength", [270, 366, 450, 550, 700, 1100, 1650, 2400])
+def test_absorption_of_every_layer_by_hand(name, wavelength):
+    text = (files("hylios.spectra") / "figures.csv").read_text()
+    rows = {int(row["wavelength_nm"]): row for row in csv.DictReader(io.StringIO(text))}
+    expected, melanin = absorption_by_hand(SPECIMENS[name], rows[wavelength])
+    layers = stack(SPECIMENS[name], float(wavelength)).layers
+    assert [layer.absorption for layer in layers] == pytest.approx(expected, rel=1e-9)
+    assert [layer.melanin_absorption for layer in layers[1:4]] == pytest.approx([melanin] * 3)
+
+
+def test_more_melanin_than_a_layer_holds_is_refused():
+    with pytest.raises(InputError, match="basale_colloidal_melanin together are 101.35 %"):
+        with_values(SPECIMENS["S3"], {"basale_melanosomes": 100.0})
+
+
+def test_a_tan_that_overfills_a_layer_is_told():
+    assert overfull(SPECIMENS["S4"], np.array([0.1, 4.5, 0.1]), 1.0)
+    assert not overfull(SPECIMENS["S4"], np.array([0.1, 1.2, 0.1]), 1.0)

@@ -1,12 +1,16 @@
 """The tanning model against the thesis, its limits and itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hylios.dose import equivalent_dose
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS, tanned
+from hylios.spectra import figures
 from hylios.tanning import (
     PIGMENTATIONS,
     Exposures,
@@ -190,6 +194,9 @@ def test_melanin_never_fills_more_than_its_layer():
     [
         (lambda: Exposures([-1], [1.0]), "hours of exposure are"),
         (lambda: Exposures([0.5], [1.0]), "hours of exposure are"),
+        (lambda: Exposures([np.inf], [1.0]), "hours of exposure are"),
+        (lambda: Exposures([1e19], [1.0]), "hours of exposure are"),
+        (lambda: Exposures([0], [1.0], [1.0, 2.0]), "the last axis must match"),
         (lambda: Exposures([0], [-1.0]), "a dose is negative"),
         (lambda: Exposures([0], [np.nan]), "a dose is negative or not finite"),
         (lambda: Exposures([0, 1], [1.0]), "the last axis must match"),
@@ -203,3 +210,75 @@ def test_bad_exposures_are_named(exposures, sentence):
 def test_bad_minimal_dose_is_named():
     with pytest.raises(InputError, match="MMD is 0 SED; allowed is"):
         simulate(Exposures(), PIGMENTATIONS["low"], mmd=0.0, med=1.0, hours=1)
+
+
+def test_doses_are_kept_as_they_were_checked():
+    given = np.array([1.0])
+    exposures = Exposures([0], given)
+    given[0] = -1.0
+    assert exposures.doses[0] == 1.0
+
+
+def test_bad_dynamics_are_named():
+    with pytest.raises(InputError, match="melanin_decay is 1; allowed is"):
+        replace(PIGMENTATIONS["low"], melanin_decay=1.0)
+    with pytest.raises(InputError, match="production rate of melanin is -1"):
+        replace(PIGMENTATIONS["low"], production=(-1.0, 0.0, 0.0))
+    with pytest.raises(InputError, match="melanin production is 0 in every layer"):
+        replace(PIGMENTATIONS["low"], production=(0.0, 0.0, 0.0))
+
+
+def test_a_dose_for_the_thickness_of_its_own():
+    """Only the thickness follows it."""
+    dynamics = PIGMENTATIONS["low"]
+    usual = simulate(Exposures([0], [10.0]), dynamics, mmd=2.89, med=1.7, hours=100)
+    thin = simulate(Exposures([0], [10.0], [0.0]), dynamics, mmd=2.89, med=1.7, hours=100)
+    assert np.array_equal(thin.melanin, usual.melanin)
+    assert np.all(thin.thickness == thin.thickness[0])
+
+
+WAVELENGTHS = np.arange(280.0, 401.0, 1.0)
+
+
+@pytest.mark.parametrize("name", ["erythema_action", "melanogenesis_action"])
+def test_light_of_298_nm_counts_in_full(name):
+    """A narrow line of 100 J/m^2 at 298 nm is 1 SED, whatever the skin's absorptance."""
+    line = np.where(WAVELENGTHS == 298.0, 100.0, 0.0)
+    action = figures()[name].at(WAVELENGTHS)
+    for absorptance in (np.full(121, 0.9), np.linspace(0.99, 0.4, 121)):
+        dose = equivalent_dose(WAVELENGTHS, line, action, absorptance)
+        assert dose == pytest.approx(1.0, rel=1e-12)
+
+
+def test_a_spectral_dose_is_weighed_by_action_and_absorptance():
+    """5.3 over 5.2 by hand: flat light, flat skin, erythema action 1 to 298 and 10^0.094(298 - l)
+    to 328 nm."""
+    wavelengths = np.arange(290.0, 328.01, 0.5)
+    action = np.where(wavelengths <= 298.0, 1.0, 10.0 ** (0.094 * (298.0 - wavelengths)))
+    dose = equivalent_dose(wavelengths, np.full(wavelengths.size, 50.0), action, np.full(77, 0.8))
+    tail = (1.0 - 10.0 ** (-0.094 * 30.0)) / (0.094 * np.log(10.0))
+    assert dose == pytest.approx(50.0 * (8.0 + tail) / 100.0, rel=1e-3)
+    half = equivalent_dose(
+        wavelengths, np.full((3, 77), 25.0), action, np.full(wavelengths.size, 0.8)
+    )
+    assert half == pytest.approx(np.full(3, 0.5 * dose))
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"wavelengths": WAVELENGTHS[::-1]}, "at least two wavelengths, ascending"),
+        ({"wavelengths": WAVELENGTHS + 30.0}, "it must enclose 298 nm"),
+        ({"exposure": np.full(121, -1.0)}, "negative or not a number"),
+        ({"absorptance": np.zeros(121)}, "absorbs nothing at 298 nm"),
+    ],
+)
+def test_a_bad_spectral_dose_is_named(change, sentence):
+    usual = {
+        "wavelengths": WAVELENGTHS,
+        "exposure": np.ones(121),
+        "action": np.ones(121),
+        "absorptance": np.full(121, 0.9),
+    }
+    with pytest.raises(InputError, match=sentence):
+        equivalent_dose(**{**usual, **change})

@@ -15,7 +15,7 @@ from scipy.special import expn
 
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
-from hylios.tissue import READINGS, Layer, Stack, stack
+from hylios.tissue import Layer, Stack, stack
 from hylios.transport import interfaces
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import path_lengths, survival, with_survival
@@ -152,24 +152,12 @@ def test_fresnel_limits():
     assert interfaces.fresnel(np.cos(brewster), 1.0, 1.5)[0] == pytest.approx(across / 2)
 
 
-@pytest.mark.parametrize(
-    ("name", "choice"),
-    [(name, choice) for name, each in READINGS.items() for choice in each.choices[1:]],
-)
-def test_every_other_reading_moves_the_reflectance(name, choice):
-    """Each is worth more than .01 somewhere: two specimens' worth of wavelengths see it."""
-    wavelengths = np.array([350.0, 450.0, 550.0, 650.0, 850.0, 1100.0])
-    usual = spectrum(SPECIMENS["S3"], wavelengths, rays=20_000)
-    other = spectrum(SPECIMENS["S3"], wavelengths, rays=20_000, chosen={name: choice})
-    assert np.abs(usual.total - other.total).max() > 0.01
-
-
 @settings(max_examples=25, deadline=None)
 @given(
     name=st.sampled_from(list(SPECIMENS)),
     wavelength=st.floats(250.0, 2500.0),
     angle=st.floats(0.0, 89.99),
-    content=st.floats(0.0, 60.0),
+    content=st.floats(0.0, 85.0),
     blood=st.floats(0.0, 100.0),
     size=st.floats(0.01, 100.0),
     roughness=st.floats(0.0, 10.0),
@@ -186,7 +174,12 @@ def test_extremes_give_numbers(name, wavelength, angle, content, blood, size, ro
         papillary_thickness=usual.papillary_thickness * size,
         epidermis_refractive_index=index,
     )
-    traced = trace(with_survival(stack(extreme, wavelength)), rays=200, angle=angle)
+    try:
+        layers = stack(extreme, wavelength)
+    except InputError as error:
+        assert "basale_thickness" in str(error)  # thinner than the melanosomes in it
+        return
+    traced = trace(with_survival(layers), rays=200, angle=angle)
     ends = {SURFACE, SUBSURFACE, ABSORBED, ABSORBED_IN_MELANOSOME}
     assert set(traced.outcome.tolist()) <= ends
     assert not np.any(np.isin(traced.outcome, (TRANSMITTED, LOST)))
@@ -198,9 +191,14 @@ def test_extremes_give_numbers(name, wavelength, angle, content, blood, size, ro
     ("arguments", "sentence"),
     [
         ({"angle": 90.0}, "angle of incidence is 90 degrees; allowed is 0 to 89.99 degrees."),
-        ({"rays": 0}, "number of rays is 0; allowed is 1 to 1e+12."),
+        ({"rays": 0}, "number of rays is 0; allowed is 1 to 1e+10."),
+        ({"rays": 1.5}, "number of rays is 1.5; allowed are whole numbers"),
+        ({"seed": -1}, "seed is -1"),
+        ({"threads": -1}, "number of threads is -1"),
+        ({"wavelengths": [[500.0]]}, "wavelengths are no list of numbers"),
+        ({"wavelengths": [float("nan")]}, "wavelength nan nm is outside the figure"),
         ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the figure"),
-        ({"wavelengths": []}, "no wavelengths are given"),
+        ({"wavelengths": []}, "wavelengths are no list of numbers"),
         ({"chosen": {"floor": "soft"}}, "reading floor is 'soft'; allowed is normal, mirrored."),
     ],
 )
@@ -209,3 +207,29 @@ def test_bad_input_is_named(arguments, sentence):
     with pytest.raises(InputError) as error:
         spectrum(SPECIMENS["S3"], **{**usual, **arguments})
     assert sentence in str(error.value)
+
+
+def test_layers_too_thin_for_their_melanosomes_are_refused():
+    with pytest.raises(InputError, match="basale_thickness is 3.3e-05 cm; allowed with melanos"):
+        stack(replace(SPECIMENS["S3"], basale_thickness=3.3e-5), 500.0)
+    assert stack(replace(SPECIMENS["S3"], granulosum_thickness=3.3e-5), 500.0)
+
+
+def test_one_ray_is_not_certain():
+    assert spectrum(SPECIMENS["S3"], [500.0], rays=1).standard_error[0] > 0.4
+
+
+def test_high_melanosome_content_is_tabulated_within_what_is_documented():
+    """S4 with 40 % melanosomes, where many are drawn again: within 2.5 % of what they absorb."""
+    crowded = replace(
+        SPECIMENS["S4"],
+        **{f"{layer}_melanosomes": 40.0 for layer in ("basale", "spinosum", "granulosum")},
+        eumelanin_concentration=10.0,
+    )
+    rays = 60_000
+    found, printed = (
+        spectrum(crowded, [600.0], rays=rays, as_printed=way).absorbed_in_melanosomes.sum()
+        for way in (False, True)
+    )
+    error = np.sqrt(2.0 * printed * (1.0 - printed) / rays)
+    assert abs(found - printed) < 0.025 * printed + 3.0 * error

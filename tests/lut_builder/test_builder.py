@@ -2,8 +2,10 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import OpenImageIO as oiio  # noqa: N813
@@ -13,13 +15,13 @@ from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
 from hylios.table import HEADER_ATTRIBUTE, PLANES, header_text, to_pixels
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
-from lut_builder.build import Settings, build, tanned_appearance
-from lut_builder.check import check, skin_of
+from lut_builder.build import PRESETS, Settings, build, tanned_appearance, visible_wavelengths
+from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import main
 from lut_builder.exr import read_table, write_table
 from lut_builder.states import choose_axes, reachable_states, skin, untanned_state
 
-TINY = Settings(knots=(3, 2), step=60.0, rays=1500)
+TINY = Settings(knots=(3, 2), visible=visible_wavelengths(60.0), rays=1500)
 
 
 @pytest.fixture(scope="module")
@@ -140,14 +142,40 @@ def test_a_table_that_cannot_be_written_leaves_nothing(tiny, tmp_path):
 
 def test_check_finds_a_table_right_and_a_wrong_one_wrong(tiny):
     """The tiny table's own noise explains most of its error; one darkened by a fifth is found."""
-    honest = check(tiny, count=4, rays=1500, seed=5)
-    assert honest.differences.shape == (4,)
+    honest = check(tiny, count=6, rays=1500, seed=5)
+    assert honest.differences.shape == (6,)
     assert honest.noise.mean() > 0.3
-    assert 0.1 < honest.noise_share <= 1.0
+    assert 0.1 < honest.noise_share < 3.0
+    assert len(set(np.round(honest.differences, 6))) == 6
     wrong = type(tiny)(tiny.axes, tiny.values * 0.8, tiny.provenance)
-    found = check(wrong, count=4, rays=1500, seed=5)
+    found = check(wrong, count=6, rays=1500, seed=5)
     assert found.differences.min() > honest.differences.mean()
-    assert found.noise_share < honest.noise_share
+    assert found.noise_share < 0.5 * honest.noise_share
+
+
+def test_checked_states_are_no_knots(tiny):
+    states = check(tiny, count=40, rays=100, seed=2).states
+    knots = np.log(tiny.axes.knot_states().reshape(-1, 4))
+    apart = np.abs(np.log(states)[:, None] - knots).max(axis=2).min(axis=1)
+    assert apart.min() > 1e-6
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"rays": 0},
+        {"rays": "many"},
+        {"wavelengths_nm": None},
+        {"pigmentation": "foo"},
+        {"mmd_sed": "x"},
+        {"specimen_parameters": {"name": "S3"}},
+    ],
+)
+def test_a_header_without_what_check_needs_is_refused(tiny, change):
+    other = type(tiny)(tiny.axes, tiny.values, {**tiny.provenance, **change})
+    with pytest.raises(InputError):
+        skin_of(other)
+        settings_of(other)
 
 
 def test_the_command_builds_describes_and_checks(tmp_path, capsys):
@@ -171,19 +199,28 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
     assert main(["check", str(path), "--states", "2"]) == 0
     checked = capsys.readouterr().out
     assert "mean CIEDE2000 between table and simulation:" in checked
-    assert "share of the mean squared difference that is noise:" in checked
+    assert "share of the mean squared difference that noise explains:" in checked
 
 
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
         ("build --specimen S9 -o {}/t.exr", "there is no specimen 'S9'"),
-        ("build --knots 3,x -o {}/t.exr", "knots is 'x'; expected a number."),
+        ("build --knots 3,x -o {}/t.exr", "number of knots is 'x'; expected a number."),
+        ("build --knots 1.9 -o {}/t.exr", "number of knots is 1.9; allowed are whole numbers"),
+        ("build --knots nan -o {}/t.exr", "number of knots is nan"),
+        ("build --knots= -o {}/t.exr", "number of knots is ''; expected a number."),
+        ("build --threads -1 -o {}/t.exr", "number of threads is -1"),
+        ("build --seed -1 -o {}/t.exr", "seed is -1"),
+        ("build -o {}/t.png", "must end in .exr"),
+        ("build -o /proc/t.exr", "cannot be written"),
+        ("check {}/none.exr --seed -1", "seed is -1"),
+        ("check {}/none.exr --threads 0", "number of threads is 0"),
         ("build --knots 3,3,3,3,3 -o {}/t.exr", "number of axes is 5; allowed is 1 to 4."),
         ("build --rays 1 -o {}/t.exr", "number of rays is 1; allowed is 100 to 1e+09."),
         ("build --step 0 -o {}/t.exr", "step is 0 nm; allowed is 1 to 100 nm."),
         ("build --mmd 0 -o {}/t.exr", "MMD is 0 SED"),
-        ("build -o {}/no/t.exr", "does not exist"),
+        ("build -o {}/no/t.exr", "cannot be written: No such file or directory"),
         ("info {}/none.exr", "cannot be read"),
         ("check {}/none.exr", "cannot be read"),
     ],
@@ -196,14 +233,62 @@ def test_bad_input_is_one_sentence_and_status_2(tmp_path, capsys, arguments, sen
     assert os.listdir(tmp_path) == []
 
 
-def test_ctrl_c_is_status_130_and_leaves_nothing(tmp_path):
+def test_ctrl_c_ends_a_build_promptly_and_leaves_nothing(tmp_path):
+    """A real signal in the middle of a build that would take minutes."""
+    command = [sys.executable, "-m", "lut_builder.cli", "build", "--rays", "1000000"]
+    with subprocess.Popen(
+        [*command, "-o", str(tmp_path / "t.exr")], stderr=subprocess.PIPE, text=True
+    ) as building:
+        while "ray/s" not in building.stderr.read(60):
+            pass
+        building.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        _, said = building.communicate(timeout=30)
+    assert time.monotonic() - sent < 10.0
+    assert building.returncode == 130
+    assert said.endswith("cancelled\n")
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_full_disk_leaves_the_former_table(tiny, tmp_path):
+    """A limit on the size of files stands in for the disk."""
+    path = tmp_path / "t.exr"
+    write_table(path, tiny)
+    before = path.read_bytes()
     code = (
-        "import sys, lut_builder.cli as cli\n"
-        "def interrupted(*_, **__): raise KeyboardInterrupt\n"
-        "cli.build = interrupted\n"
-        f"sys.exit(cli.main(['build', '-o', {str(tmp_path / 't.exr')!r}]))"
+        "import resource, signal, sys; from pathlib import Path\n"
+        "from hylios.errors import InputError\n"
+        "from lut_builder.exr import read_table, write_table\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        f"path = Path({str(path)!r}); table = read_table(path)\n"
+        f"resource.setrlimit(resource.RLIMIT_FSIZE, ({len(before) - 100},) * 2)\n"
+        "try: write_table(path, table)\n"
+        "except InputError as error: sys.exit(str(error))"
     )
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert ended.returncode == 130
-    assert ended.stderr.endswith("cancelled\n")
-    assert os.listdir(tmp_path) == []
+    assert "cannot be written" in ended.stderr
+    assert ended.stderr.count("\n") == 1
+    assert path.read_bytes() == before
+    assert os.listdir(tmp_path) == ["t.exr"]
+
+
+def test_a_table_says_what_was_changed(tmp_path):
+    path = tmp_path / "t.exr"
+    own = tmp_path / "keratin.csv"
+    own.write_text("250,0\n2500,0\n")
+    arguments = "build --knots 1 --step 100 --rays 100 --set papillary_blood=0.5"
+    arguments += f" --reading floor=mirrored --figure keratin={own} -o {path}"
+    assert main(arguments.split()) == 0
+    made = read_table(path).provenance
+    assert made["specimen"] == "S3 with papillary_blood=0.5"
+    assert made["readings"]["floor"] == "mirrored"
+    assert made["own_figures"] == {"keratin": str(own)}
+    assert not any(line.startswith("keratin") for line in made["estimated_figures"])
+    assert not any("action" in line for line in made["estimated_figures"])
+
+
+def test_presets_of_the_command_are_those_of_the_builder():
+    from lut_builder.cli import _parser
+
+    for preset in PRESETS:
+        assert _parser().parse_args(["build", "--preset", preset, "-o", "t.exr"]).preset == preset

@@ -1,0 +1,130 @@
+"""What the project's shell commands share: how they end, and how arguments are read."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError, require_whole
+from hylios.specimen import Specimen, specimen, with_values
+from hylios.spectra import Figures, figures, replaced
+from hylios.tissue import readings
+
+MOST_WAVELENGTHS = 10_000
+
+
+def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
+    """Run a command; bad input is one sentence and status 2, Ctrl-C one word and status 130."""
+    try:
+        command(arguments)
+        sys.stdout.flush()
+    except InputError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("cancelled", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        _discard_output()
+        return 1
+    except OSError as error:
+        print(f"error: {error}.", file=sys.stderr)
+        _discard_output()
+        return 2
+    return 0
+
+
+def _discard_output() -> None:
+    """Keep the interpreter from failing once more on output that has nowhere to go."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen_skin` reads."""
+    parser.add_argument("--specimen", default="S3", help="S1 to S4 of table 6.1 (default S3)")
+    for option, metavar, help_text in (
+        ("--set", "NAME=VALUE", "set a parameter of the specimen"),
+        ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
+        ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
+    ):
+        parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--threads", type=int, help="default: all cores")
+
+
+def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:
+    """The specimen, spectral figures and readings that the arguments ask for.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be used, or the seed or the number of threads is out of range.
+    """
+    require_whole("seed", asked.seed, 0, 2**32 - 1)
+    if asked.threads is not None:
+        require_whole("number of threads", asked.threads, 1, 1024)
+    values = {
+        name: text if name == "melanosome_arrangement" else number(text, name)
+        for name, text in named_values(asked.set, "a setting").items()
+    }
+    known = figures()
+    for name, path in named_values(asked.figure, "a figure").items():
+        known = replaced(known, name, Path(path))
+    chosen = readings(named_values(asked.reading, "a reading"))
+    return with_values(specimen(asked.specimen), values), known, chosen
+
+
+def wavelength_range(text: str) -> np.ndarray:
+    """Wavelengths in nm from FIRST:LAST:STEP, with both ends, or from a list a,b,c.
+
+    Raises
+    ------
+    InputError
+        If the text is neither, or gives more than `MOST_WAVELENGTHS`.
+    """
+    separator = ":" if ":" in text else ","
+    try:
+        numbers = [float(part) for part in text.split(separator)]
+    except ValueError:
+        numbers = []
+    if separator == "," and 0 < len(numbers) <= MOST_WAVELENGTHS:
+        return np.array(numbers)
+    if separator == ":" and len(numbers) == 3:
+        first, last, step = numbers
+        if step > 0 and first <= last and (last - first) / step < MOST_WAVELENGTHS:
+            return first + step * np.arange(int((last - first) / step + 1e-9) + 1)
+    raise InputError(
+        f"wavelengths are {text!r}; expected FIRST:LAST:STEP with a positive step, or a list of "
+        f"numbers, in nm, at most {MOST_WAVELENGTHS}."
+    )
+
+
+def named_values(pairs: list[str], what: str) -> dict[str, str]:
+    """A dictionary from texts NAME=VALUE.
+
+    Raises
+    ------
+    InputError
+        If a text has no equals sign.
+    """
+    for pair in pairs:
+        if "=" not in pair:
+            raise InputError(f"{what} is {pair!r}; expected NAME=VALUE.")
+    return dict(pair.split("=", 1) for pair in pairs)
+
+
+def number(text: str, name: str) -> float:
+    """A number from a text.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    try:
+        return float(text)
+    except ValueError as error:
+        raise InputError(f"{name} is {text!r}; expected a number.") from error

@@ -1,0 +1,32 @@
+"""Compilation of the kernels, kept between processes.
+
+numba's cache notices a change in the file of a compiled function, not in the functions that it
+calls from other files. But it does keep apart functions that are closures over different values:
+each kernel here is one over a digest of all sources of this package.
+"""
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+
+from numba import njit
+
+
+def _digest_of_sources() -> str:
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def kernel(make: Callable[[str], Callable]) -> Callable:
+    """Compile what `make` returns, given the digest over which it must close.
+
+    It runs without the interpreter's lock. Where no folder can be written it is compiled anew in
+    every process.
+    """
+    function = make(_digest_of_sources())
+    try:
+        return njit(nogil=True, cache=True)(function)
+    except RuntimeError:
+        return njit(nogil=True)(function)

@@ -69,19 +69,24 @@ def patches(white: Light, cloth: swimsuit.Field, camera: np.ndarray) -> list[Pat
     distance = swimsuit.distance_to_edge(cloth, position, normal)
     view = camera - position
     facing = np.sum(view * normal, axis=-1) / np.linalg.norm(view, axis=-1)
-    good = (brightness > np.median(brightness)) & (facing > 0.8)
+    good = (brightness >= np.median(brightness)) & (facing > 0.8)
     found = []
     for skin, side in zip(SKINS, (-1.0, 1.0), strict=True):
         candidates = position[good & (side * distance > CLEAR_OF_EDGE)]
         candidates = candidates[:: max(1, len(candidates) // 300)]
-        centre = min(candidates, key=lambda place: _unevenness(position, brightness, place))
+        centre = _most_even(candidates, position, brightness)
         found.append(Patch(skin, centre, _window(_near(white.position, centre))))
     return found
 
 
-def _unevenness(position: np.ndarray, brightness: np.ndarray, place: np.ndarray) -> float:
-    near = brightness[_near(position, place)]
-    return float(near.std() / near.mean())
+def _most_even(candidates: np.ndarray, position: np.ndarray, brightness: np.ndarray) -> np.ndarray:
+    """The candidate (3,) whose patch is seen whole and has the most even light."""
+    lights = [brightness[_near(position, place)] for place in candidates]
+    whole = 0.8 * max(light.size for light in lights)
+    unevenness = [
+        light.std() / light.mean() if light.size >= whole else np.inf for light in lights
+    ]
+    return candidates[int(np.argmin(unevenness))]
 
 
 def _near(position: np.ndarray, centre: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ demo: environment
 
 lint: environment
 	$(BIN)/ruff check .
-	$(BIN)/basedpyright
+	$(BIN)/basedpyright --pythonpath $(BIN)/python
 
 test: lint
 	$(BIN)/python -m pytest -m "not slow"

@@ -34,6 +34,8 @@ def write_table(path: Path, table: SkinTable) -> None:
     beside = Path(name)
     try:
         output = oiio.ImageOutput.create(name)
+        if output is None:
+            raise InputError(f"the table {path} cannot be written: {oiio.geterror()}.")
         written = output.open(name, specification) and output.write_image(pixels)
         if not (output.close() and written):
             raise InputError(f"the table {path} cannot be written: {output.geterror()}.")

@@ -63,7 +63,7 @@ def suzanne() -> Subject:
     def cloth(points):
         return swimsuit.band(points, 0.012, 0.052)
 
-    return Subject("Suzanne", Mesh(vertices, faces), 3, cloth, (0.0, 0.0, 0.0), 0.44, 200.0)
+    return Subject("Suzanne", Mesh(vertices, faces), 3, cloth, (-0.018, 0.0, 0.0), 0.44, 200.0)
 
 
 def build(subject: Subject) -> bpy.types.Object:

@@ -1,0 +1,109 @@
+"""Colours read back from renders and predicted from a table."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from examples.demo import colours, swimsuit
+from examples.demo.render import Light
+from hylios import colour
+from hylios.table import SkinTable, StateAxes
+from hylios.tanning import PIGMENTATIONS
+
+SKIN = np.array([[0.50, 0.27, 0.17], [0.30, 0.14, 0.08]])  # untanned, tanned
+WHITE = np.ones((2, 3))
+
+
+def plate(albedos: np.ndarray, unevenness: float = 0.0) -> Light:
+    """A plate of 20 by 20 cm seen from y = 1, its lower and its upper half of the two albedos."""
+    x, z = np.meshgrid(np.linspace(-0.1, 0.1, 81), np.linspace(0.1, -0.1, 81))
+    position = np.stack([x, np.zeros_like(x), z], axis=-1)
+    position[0] = 0.0  # a row of background
+    normal = np.zeros_like(position) + [0.0, 1.0, 0.0]
+    normal[0] = 0.0
+    albedo = albedos[(z > 0.0).astype(int)]
+    lamp = 0.8 + unevenness * np.abs(x - 0.04)[..., None]
+    return Light(scattered=lamp * albedo, albedo=albedo, position=position, normal=normal)
+
+
+def table() -> SkinTable:
+    """Colour falls as melanin grows along one axis."""
+    steady = PIGMENTATIONS["intermediate"].steady_state()
+    axes = StateAxes(
+        untanned=np.append(steady / steady.sum(), 1.0),
+        basis=np.array([[0.5, 0.5, 0.5, 0.5]]).T,
+        knots=(np.linspace(-1.0, 3.0, 9),),
+    )
+    values = SKIN[0] * np.exp(-0.3 * axes.knots[0])[:, None]
+    provenance = {"pigmentation": "intermediate", "mmd_sed": 2.89, "med_sed": 1.7}
+    return SkinTable(axes, np.repeat(values[:, None], 4, axis=1), provenance)
+
+
+def patches_of(white: Light) -> list[colours.Patch]:
+    return colours.patches(white, lambda at: at[:, 2], np.array([0.0, 1.0, 0.0]))
+
+
+def test_patches_lie_clear_of_the_edge_where_light_is_even():
+    untanned, tanned = patches_of(plate(WHITE, unevenness=3.0))
+    assert (untanned.skin, tanned.skin) == colours.SKINS
+    assert untanned.centre[2] < -colours.CLEAR_OF_EDGE < colours.CLEAR_OF_EDGE < tanned.centre[2]
+    assert colours.CLEAR_OF_EDGE > colours.PATCH_RADIUS + 2 * swimsuit.EDGE_WIDTH / 2
+
+
+def test_a_patch_is_seen_whole_and_its_window_holds_it():
+    for patch in patches_of(plate(WHITE)):
+        left, right, bottom, top = patch.window
+        x, z = patch.centre[0] / 0.2 + 0.5, patch.centre[2] / 0.2 + 0.5
+        assert 0.0 <= left < x < right <= 1.0 and 0.0 <= bottom < z < top <= 1.0
+        assert right - left == pytest.approx(2 * colours.PATCH_RADIUS / 0.2, rel=0.3)
+
+
+def test_a_reading_is_the_albedo_whatever_the_lamp():
+    white = plate(WHITE, unevenness=3.0)
+    skin = plate(SKIN, unevenness=3.0)
+    for patch, expected in zip(patches_of(white), SKIN, strict=True):
+        found = colours.reading(10.0, patch, skin, white, expected)
+        # Light is divided by light over the same patch: uneven light leaves the ratio alone.
+        assert found.rendered == pytest.approx(expected, rel=1e-6)
+        assert found.difference == pytest.approx(0.0, abs=1e-5)
+        assert found.entering == pytest.approx(1.0)
+
+
+def test_the_model_darkens_tanned_skin_alone_and_most_on_day_ten():
+    days = (0, 1, 4, 10, 20, 30)
+    predicted = colours.predictions(table(), 30.0, days)
+    assert predicted.shape == (6, 2, 3)
+    assert np.ptp(predicted[:, 0], axis=0) == pytest.approx([0.0, 0.0, 0.0])
+    assert predicted[0, 1] == pytest.approx(predicted[0, 0])
+    lightness = colour.lab(predicted[:, 1])[:, 0]
+    assert days[int(np.argmin(lightness))] == 10
+
+
+def test_srgb_bytes_go_back_to_the_colour():
+    for linear in SKIN:
+        byte = np.array(colours.srgb_bytes(linear)) / 255.0
+        assert ((byte + 0.055) / 1.055) ** 2.4 == pytest.approx(linear, rel=0.02)
+    assert colours.srgb_bytes(np.ones(3)) == [255, 255, 255]
+    assert colour.lab(np.ones(3)) == pytest.approx([100.0, 0.0, 0.0], abs=0.02)
+
+
+def test_the_file_holds_what_is_printed(tmp_path):
+    found = [
+        colours.Reading(day, skin, 0.97 * linear, linear, 0.97)
+        for day in (0, 10)
+        for skin, linear in zip(colours.SKINS, SKIN, strict=True)
+    ]
+    colours.write_csv(found, tmp_path / "colours.csv")
+    with (tmp_path / "colours.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["day"], row["skin"]) for row in rows] == [
+        ("0", "untanned"),
+        ("0", "tanned"),
+        ("10", "untanned"),
+        ("10", "tanned"),
+    ]
+    assert float(rows[1]["predicted_L"]) == pytest.approx(colour.lab(SKIN[1])[0], abs=1e-3)
+    report = colours.report(found)
+    assert "97.0%" in report and f"{found[0].difference:.2f}" in report
+    assert all(row["rendered_red"] in report for row in rows)

@@ -69,7 +69,11 @@ def small_table(path: Path) -> None:
     """
     command = [sys.executable, "-m", "lut_builder.cli", "build", "--preset", "small"]
     skin = ["--specimen", "S3", "--pigmentation", "intermediate", "--mmd", "2.89", "--med", "1.7"]
-    if subprocess.run([*command, *skin, "-o", str(path)], stdout=subprocess.DEVNULL).returncode:
+    try:
+        built = subprocess.run([*command, *skin, "-o", str(path)], stdout=subprocess.DEVNULL)
+    except KeyboardInterrupt:
+        sys.exit(130)  # Ctrl-C reached the command too, and it has said so.
+    if built.returncode:
         raise InputError("the skin table could not be built.")
 
 

@@ -28,7 +28,7 @@ class Quality:
 
 
 STILL = Quality(samples=20, percent=100, denoiser="HIGH")
-VIDEO = Quality(samples=8, percent=50)
+VIDEO = Quality(samples=6, percent=50)
 OVERVIEW = Quality(samples=32, percent=50)
 READING = Quality(samples=256, percent=100)
 

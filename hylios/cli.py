@@ -6,7 +6,15 @@ import sys
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.shell import add_skin_arguments, chosen_skin, number, run, wavelength_range
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    number,
+    require_work,
+    run,
+    wavelength_range,
+)
 from hylios.spectra import estimates_within
 from hylios.tanning import (
     PIGMENTATIONS,
@@ -32,6 +40,7 @@ def _parser() -> argparse.ArgumentParser:
     light = commands.add_parser("reflectance", help="spectrum of a specimen by random walk")
     light.set_defaults(command=_reflectance)
     add_skin_arguments(light)
+    add_work_arguments(light)
     light.add_argument("--wavelengths", default="400:700:10", help="nm, FIRST:LAST:STEP or a,b,c")
     light.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
     light.add_argument("--rays", type=int, default=100_000, help="per wavelength")
@@ -56,6 +65,7 @@ def _parser() -> argparse.ArgumentParser:
 def _reflectance(asked: argparse.Namespace) -> None:
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
+    require_work(asked)
     specimen, known, chosen = chosen_skin(asked)
     result = spectrum(
         specimen,

@@ -51,8 +51,19 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
         ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
     ):
         parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+
+
+def add_work_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of every simulation, which `require_work` checks."""
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--threads", type=int, help="default: all cores")
+
+
+def require_work(asked: argparse.Namespace) -> None:
+    """Raise InputError where the seed or the number of threads is out of range."""
+    require_whole("seed", asked.seed, 0, 2**32 - 1)
+    if asked.threads is not None:
+        require_whole("number of threads", asked.threads, 1, 1024)
 
 
 def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:
@@ -61,11 +72,8 @@ def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[s
     Raises
     ------
     InputError
-        If one of them cannot be used, or the seed or the number of threads is out of range.
+        If one of them cannot be used.
     """
-    require_whole("seed", asked.seed, 0, 2**32 - 1)
-    if asked.threads is not None:
-        require_whole("number of threads", asked.threads, 1, 1024)
     values = {
         name: text if name == "melanosome_arrangement" else number(text, name)
         for name, text in named_values(asked.set, "a setting").items()

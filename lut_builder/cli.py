@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hylios.errors import InputError, require_range, require_whole
-from hylios.shell import add_skin_arguments, chosen_skin, number, run
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    number,
+    require_work,
+    run,
+)
 from hylios.table import PLANES
 from hylios.tanning import PIGMENTATIONS
 
@@ -39,6 +46,7 @@ def _parser() -> argparse.ArgumentParser:
     building = commands.add_parser("build", help="simulate a skin's tanning states into a table")
     building.set_defaults(command=_build)
     add_skin_arguments(building)
+    add_work_arguments(building)
     building.add_argument(
         "--pigmentation",
         choices=list(PIGMENTATIONS),
@@ -62,8 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     checking.add_argument("table", type=Path)
     checking.add_argument("--states", type=int, default=20, help="states between the knots")
     checking.add_argument("--rays", type=int, help="rays per wavelength (default: the table's)")
-    checking.add_argument("--seed", type=int, default=1)
-    checking.add_argument("--threads", type=int, help="default: all cores")
+    add_work_arguments(checking)
     return parser
 
 
@@ -109,6 +116,7 @@ def _require_target(target: Path, replacing: bool) -> None:
 
 def _build(asked: argparse.Namespace) -> None:
     _require_target(asked.output, asked.force)
+    require_work(asked)
     specimen, known, chosen = chosen_skin(asked)
 
     from lut_builder.build import build
@@ -158,9 +166,7 @@ def _info(asked: argparse.Namespace) -> None:
 
 def _check(asked: argparse.Namespace) -> None:
     require_whole("number of states", asked.states, 1, 10_000)
-    require_whole("seed", asked.seed, 0, 2**32 - 1)
-    if asked.threads is not None:
-        require_whole("number of threads", asked.threads, 1, 1024)
+    require_work(asked)
 
     from lut_builder.check import check, settings_of
     from lut_builder.exr import read_table

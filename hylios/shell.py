@@ -42,6 +42,13 @@ def _discard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
+def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:
+    """Print columns of equal length as CSV with a header."""
+    print(",".join(columns))
+    for row in zip(*columns.values(), strict=True):
+        print(",".join(f"{value:.{digits}g}" for value in row))
+
+
 def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `chosen_skin` reads."""
     parser.add_argument("--specimen", default="S3", help="S1 to S4 of table 6.1 (default S3)")

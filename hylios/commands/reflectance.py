@@ -1,0 +1,62 @@
+"""`hylios reflectance`: a specimen's spectrum by random walk, as CSV."""
+
+import argparse
+import sys
+
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    print_table,
+    require_work,
+    wavelength_range,
+)
+from hylios.spectra import estimates_within
+from hylios.tissue import FIGURES
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser("reflectance", help="spectrum of a specimen by random walk")
+    parser.set_defaults(command=run)
+    add_skin_arguments(parser)
+    add_work_arguments(parser)
+    parser.add_argument("--wavelengths", default="400:700:10", help="nm, FIRST:LAST:STEP or a,b,c")
+    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
+    parser.add_argument("--rays", type=int, default=100_000, help="per wavelength")
+    parser.add_argument(
+        "--as-printed",
+        action="store_true",
+        help="walk every path inside a melanosome (same model, slower)",
+    )
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Simulate and print."""
+    from hylios.transport.simulate import spectrum  # numba: only when light is asked for
+
+    require_work(asked)
+    specimen, known, chosen = chosen_skin(asked)
+    result = spectrum(
+        specimen,
+        wavelength_range(asked.wavelengths),
+        angle=asked.angle,
+        rays=asked.rays,
+        seed=asked.seed,
+        threads=asked.threads,
+        known=known,
+        chosen=chosen,
+        as_printed=asked.as_printed,
+    )
+    for line in estimates_within(known, FIGURES, result.wavelengths):
+        print(f"note: {line}", file=sys.stderr)
+    print_table(
+        {
+            "wavelength_nm": result.wavelengths,
+            "total": result.total,
+            "surface": result.surface,
+            "subsurface": result.subsurface,
+            "absorptance": result.absorptance,
+            "standard_error": result.standard_error,
+        }
+    )

@@ -3,10 +3,10 @@
 import argparse
 import sys
 
-from hylios.commands import reflectance, tan
+from hylios.commands import reflectance, specimen, tan
 from hylios.shell import run
 
-COMMANDS = (reflectance, tan)
+COMMANDS = (reflectance, tan, specimen)
 """Modules with a function `add_to`, which adds their command to a parser's subcommands."""
 
 

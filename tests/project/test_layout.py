@@ -12,6 +12,7 @@ STANDARD = set(sys.stdlib_module_names)
 ALLOWED = {
     "hylios": {"numpy"},
     "hylios/colour.py": {"numpy", "colour"},
+    "hylios/pictures.py": {"numpy", "matplotlib"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},

@@ -212,7 +212,7 @@ def spectrum(
         traced = trace(layers, rays=size, angle=angle, key=key)
         return row, size, _tally(traced, depth), _exit_counts(traced)
 
-    for row, size, tally, counted in _in_threads(piece, work, threads):
+    for row, size, tally, counted in in_threads(piece, work, threads):
         counts[row] += tally
         exits[row] += counted
         if progress:
@@ -248,7 +248,7 @@ def _exit_counts(traced: Rays) -> np.ndarray:
     return np.bincount(bins, minlength=DISTANCE_EDGES.size)
 
 
-def _in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
+def in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
     """Results as they end, with a few tasks waiting; on any exception the waiting ones are dropped.
 
     The kernels release the interpreter's lock, so threads run at once.

@@ -13,6 +13,7 @@ ALLOWED = {
     "hylios": {"numpy"},
     "hylios/colour.py": {"numpy", "colour"},
     "hylios/predecessors": {"numpy", "numba", "scipy"},
+    "hylios/pictures.py": {"numpy", "matplotlib"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},

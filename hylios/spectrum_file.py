@@ -1,0 +1,83 @@
+"""Reflectance spectra in CSV files, as `hylios reflectance` prints them."""
+
+import csv
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError
+
+
+@dataclass(frozen=True)
+class NamedSpectrum:
+    """A reflectance spectrum, simulated or measured.
+
+    Attributes
+    ----------
+    name : str
+    wavelengths : (W,) ascending array, nm
+    reflectance : (W,) array, 0 to 1
+    standard_error : (W,) array or None
+        None where it is not known.
+    """
+
+    name: str
+    wavelengths: np.ndarray
+    reflectance: np.ndarray
+    standard_error: np.ndarray | None
+
+
+def read_spectrum(path: Path) -> NamedSpectrum:
+    """Read a spectrum from CSV with a header.
+
+    Needed are the columns `wavelength_nm`, ascending, and `total`, the reflectance;
+    `standard_error` is read where there is one, other columns are ignored. The path `-` is
+    standard input. The spectrum is named as the file without its ending.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is no spectrum.
+    """
+    name = "standard input" if path == Path("-") else path.stem
+    table = _columns(path)
+    for needed in ("wavelength_nm", "total"):
+        if needed not in table:
+            raise InputError(
+                f"{path} has no column {needed}; a spectrum needs wavelength_nm,total."
+            )
+    wavelengths, reflectance = table["wavelength_nm"], table["total"]
+    error = table.get("standard_error")
+    if not wavelengths.size or not np.all(np.diff(wavelengths) > 0):
+        raise InputError(f"{path} needs one or more wavelengths, in ascending order.")
+    outside = reflectance[(reflectance < 0.0) | (reflectance > 1.0)]
+    if outside.size:
+        raise InputError(f"{path} has a total of {outside[0]:g}; allowed is 0 to 1.")
+    if error is not None and np.any(error < 0.0):
+        raise InputError(f"{path} has a standard_error of {error.min():g}; allowed is 0 or more.")
+    return NamedSpectrum(name, wavelengths, reflectance, error)
+
+
+WANTED = ("wavelength_nm", "total", "standard_error")
+
+
+def _columns(path: Path) -> dict[str, np.ndarray]:
+    """Those of the columns `WANTED` that a CSV file has, as finite numbers."""
+    try:
+        text = sys.stdin.read() if path == Path("-") else path.read_text(encoding="utf-8-sig")
+        header, *rows = csv.reader(text.splitlines())
+        rows = [row for row in rows if row]
+        if any(len(row) != len(header) for row in rows):
+            raise ValueError("not every row has as many values as the header")
+        columns = {
+            title.strip(): np.array([row[place] for row in rows], dtype=float)
+            for place, title in enumerate(header)
+            if title.strip() in WANTED
+        }
+    except (OSError, ValueError, csv.Error) as error:
+        raise InputError(f"the spectrum in {path} cannot be read: {error}.") from error
+    if not all(np.all(np.isfinite(column)) for column in columns.values()):
+        raise InputError(f"the spectrum in {path} has values that are not finite numbers.")
+    return columns

@@ -1,16 +1,19 @@
-# make demo | test | test-all | bench | package, each sets up what it needs in VENV first.
+# make demo | figures | test | test-all | bench | package, each sets up what it needs in VENV first.
 # PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS).
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-all lint bench package environment
+.PHONY: demo figures test test-all lint bench package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
 
 demo: environment
 	@$(BIN)/python -m examples.demo
+
+figures: environment
+	@$(BIN)/python -m examples.figures $(FIGURES)
 
 lint: environment
 	$(BIN)/ruff check .

@@ -1,0 +1,1 @@
+"""The thesis's figures and tables again, drawn from this project's own results."""

@@ -1,0 +1,106 @@
+"""Reflectance curves for the figures, without noise or with as many rays as were asked for."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.specimen import Specimen
+from hylios.spectra import Figures
+from hylios.transport.simulate import spectrum
+
+RANGE = np.arange(250.0, 2501.0, 5.0)
+"""The whole range of the thesis at its resolution of 5 nm, (451,)."""
+
+THESIS_RAYS = 100_000
+"""Rays per wavelength in the thesis (section 6.1.4)."""
+
+Tick = Callable[[float], object]
+"""Told how much work of what size has ended."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How many rays per wavelength, from which seed, on how many threads (all cores if None)."""
+
+    rays: int = THESIS_RAYS
+    seed: int = 1
+    threads: int | None = None
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Directional-hemispherical reflectance.
+
+    Attributes
+    ----------
+    wavelengths, reflectance, standard_error : (W,) arrays; nm, 1, 1
+    rays : int
+        Per wavelength; 0 where the curve has no noise.
+    """
+
+    wavelengths: np.ndarray
+    reflectance: np.ndarray
+    standard_error: np.ndarray
+    rays: int
+
+    def within(self, first: float, last: float) -> np.ndarray:
+        """Reflectance from `first` to `last` nm, both included."""
+        return self.reflectance[(self.wavelengths >= first) & (self.wavelengths <= last)]
+
+
+@dataclass(frozen=True)
+class Task:
+    """Some work, given what to tell of its progress, and its size in wavelengths."""
+
+    work: Callable[[Tick], object]
+    size: int
+
+
+def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
+    """What so many rays per wavelength would give: each returns or does not."""
+    found = np.random.default_rng(seed).binomial(rays, np.clip(reflectance, 0.0, 1.0))
+    return found / rays
+
+
+def farthest(exact: Curve, walked: Curve) -> float:
+    """Largest difference of a walked curve from one without noise, in its standard errors."""
+    expected = np.interp(walked.wavelengths, exact.wavelengths, exact.reflectance)
+    return float(np.max(np.abs(walked.reflectance - expected) / walked.standard_error))
+
+
+def noise_free(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    angle: float,
+    effort: Effort,
+    known: Figures | None = None,
+) -> Task:
+    """The task of a curve without noise."""
+    return walked(specimen, wavelengths, angle, effort, known)
+
+
+def walked(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    angle: float,
+    effort: Effort,
+    known: Figures | None = None,
+) -> Task:
+    """The task of a curve by random walk."""
+    asked = np.asarray(wavelengths, dtype=float)
+
+    def work(tick: Tick) -> Curve:
+        found = spectrum(
+            specimen,
+            asked,
+            angle=angle,
+            rays=effort.rays,
+            seed=effort.seed,
+            threads=effort.threads,
+            known=known,
+            progress=lambda rays: tick(rays / effort.rays),
+        )
+        return Curve(asked, found.total, found.standard_error, effort.rays)
+
+    return Task(work, asked.size)

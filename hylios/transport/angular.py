@@ -1,8 +1,8 @@
 """Where reflected light goes: the BRDF of a stack or of a specimen at one wavelength.
 
-Helmholtz reciprocity, f_r(i, o) = f_r(o, i), holds for the engine: for Fresnel's flat interfaces,
-absorbers, scattering by a phase function of one angle, melanosomes and the diffuse floor. It does
-not hold for skin as the thesis has it, because of two of its rules:
+Helmholtz reciprocity, f_r(i, o) = f_r(o, i), holds for Fresnel's flat interfaces, absorbers,
+scattering by a phase function of one angle and the diffuse floor, and within noise (1 %) for
+melanosomes. It does not hold for skin as the thesis has it, because of two of its rules:
 
 - Rayleigh scattering once in a traversal of the papillary dermis: a ray is thinned by the fibres
   on its way to them but not on its way back, so a path and its reverse do not weigh the same.

@@ -76,7 +76,7 @@ def without(skin: Specimen, material: str) -> Specimen:
     endings = MATERIALS[material].endings
     names = [each.name for each in fields(Specimen) if each.name.endswith(endings)]
     names = [name for name in names if name != "oxygenated_blood"]
-    return with_values(skin, dict.fromkeys(names, 0.0))
+    return with_values(skin, dict.fromkeys(names, 0.0), allow_unphysical=True)
 
 
 def tasks(effort: Effort) -> dict[str, Task]:

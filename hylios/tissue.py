@@ -179,7 +179,9 @@ class Stack:
     roughness : float
         Parameter s of the surface's normals (4.8); 0 is flat.
     lambertian_floor : bool
-        Whether the lower face reflects everything diffusely; else light leaves to `index_below`.
+        Whether the lower face reflects diffusely; else light meets `index_below` there.
+    floor_reflectance : float
+        Share of the light that a Lambertian floor reflects, at every angle; the rest is lost.
     melanin_index : float
         Refractive index inside melanosomes.
     scattering_angle : float
@@ -189,6 +191,7 @@ class Stack:
     layers: tuple[Layer, ...]
     roughness: float = 0.0
     lambertian_floor: bool = False
+    floor_reflectance: float = 1.0
     index_above: float = 1.0
     index_below: float = 1.0
     melanin_index: float = 1.0
@@ -243,6 +246,7 @@ def stack(
         layers=layers,
         roughness=specimen.surface_fold_aspect_ratio,
         lambertian_floor=True,
+        floor_reflectance=0.01 * specimen.hypodermis_reflectance,
         melanin_index=specimen.melanin_refractive_index,
         scattering_angle=scattering_angle(wavelength),
         readings=decided,

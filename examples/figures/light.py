@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from examples.figures.measured_people import People
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.transport.simulate import spectrum
@@ -15,17 +16,24 @@ RANGE = np.arange(250.0, 2501.0, 5.0)
 THESIS_RAYS = 100_000
 """Rays per wavelength in the thesis (section 6.1.4)."""
 
+RAYS_AS_LONG = 1500
+"""Rays that walk while a wavelength is solved without noise; it only serves the time left."""
+
 Tick = Callable[[float], object]
 """Told how much work of what size has ended."""
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How many rays per wavelength, from which seed, on how many threads (all cores if None)."""
+    """How many rays per wavelength, from which seed, on how many threads (all cores if None).
+
+    And beside which measured people, if any.
+    """
 
     rays: int = THESIS_RAYS
     seed: int = 1
     threads: int | None = None
+    people: People | None = None
 
 
 @dataclass(frozen=True)
@@ -51,10 +59,13 @@ class Curve:
 
 @dataclass(frozen=True)
 class Task:
-    """Some work, given what to tell of its progress, and its size in wavelengths."""
+    """Some work, given what to tell of its progress, and its size.
+
+    The unit is what a curve without noise takes for one wavelength.
+    """
 
     work: Callable[[Tick], object]
-    size: int
+    size: float
 
 
 def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
@@ -99,8 +110,8 @@ def walked(
             seed=effort.seed,
             threads=effort.threads,
             known=known,
-            progress=lambda rays: tick(rays / effort.rays),
+            progress=lambda rays: tick(rays / RAYS_AS_LONG),
         )
         return Curve(asked, found.total, found.standard_error, effort.rays)
 
-    return Task(work, asked.size)
+    return Task(work, asked.size * effort.rays / RAYS_AS_LONG)

@@ -111,8 +111,12 @@ def computed(
     """The results of all tasks by group and name, with a bar that shows the time left."""
     total = sum(task.size for tasks in work.values() for task in tasks.values())
     with tqdm(total=total, unit="wavelength", unit_scale=True, file=sys.stderr) as bar:
+
+        def tick(size: float) -> None:
+            bar.update(min(size, total - bar.n))  # no rounding beyond the end
+
         return {
-            group: {name: task.work(bar.update) for name, task in tasks.items()}
+            group: {name: task.work(tick) for name, task in tasks.items()}
             for group, tasks in work.items()
         }
 

@@ -261,7 +261,21 @@ def plane_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:
                 f"{ours.rays:,} rays, standard error up to {np.max((error / theirs)[near]):.1%}",
             )
         )
-    return [*rows, *shape_rows(found)]
+    return [*rows, *shape_rows(found), reciprocity_row(found)]
+
+
+def reciprocity_row(found: Mapping[str, AngularReflectance]) -> Row:
+    """Light in at 0 and out at 60 degrees beside the reverse, out to every side."""
+    level, steep = (found[f"visible {angle:g}"] for angle in INCIDENCES)
+    there = everything(level)[11:13].sum() / level.projected_solid_angle[11:13].sum() / level.rays
+    back = everything(steep)[:1].sum() / steep.projected_solid_angle[:1].sum() / steep.rays
+    return Row(
+        "6.7",
+        "reciprocity: BRDF from 0° to 60° over BRDF from 60° to 0°",
+        "not compared",
+        f"{there:.3f} / {back:.3f} = {there / back:.2f}",
+        f"{steep.rays:,} rays",
+    )
 
 
 def shape_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:

@@ -15,7 +15,7 @@ import numpy as np
 from examples.figures.drawing import plot, points, reflectance_axes, sheet
 from examples.figures.light import RAYS_AS_LONG, Curve, Effort, Task, Tick, noise_free, walked
 from examples.figures.measured_people import People
-from examples.figures.report import Row
+from examples.figures.report import Row, agreement
 from hylios.colour import difference, srgb
 from hylios.colour import swatch as colour_of_band
 from hylios.pictures import write_figure
@@ -26,6 +26,7 @@ from hylios.transport.walk import SUBSURFACE, SURFACE
 
 FIGURES = ("6.2", "6.3", "6.4")
 
+SHOWN = ("S1", "S2")
 ANGLE = 45.0
 """Of incidence, degrees."""
 
@@ -53,7 +54,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
         "BioSpec": Task(lambda tick: walked_biospec(effort, tick), work_size(effort)),
         "people": Task(lambda tick: effort.people, 0),
     }
-    for name in ("S1", "S2"):
+    for name in SHOWN:
         found[name] = noise_free(SPECIMENS[name], WAVELENGTHS, ANGLE, effort)
         found[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, ANGLE, effort)
     return found
@@ -102,7 +103,13 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     draw_curves(curves, people, folder / "6.2.png")
     for number in SIDES:
         draw_swatches(curves, people, number, folder / f"{number}.png")
-    return [*curve_rows(curves), *people_rows(curves, people), *colour_rows(curves, people)]
+    checks = [agreement("6.2", name, curves[name], curves[f"{name} walked"]) for name in SHOWN]
+    return [
+        *curve_rows(curves),
+        *people_rows(curves, people),
+        *colour_rows(curves, people),
+        *checks,
+    ]
 
 
 def draw_curves(curves: Mapping[str, Curve], people: People | None, path: Path) -> None:
@@ -121,7 +128,7 @@ def draw_curves(curves: Mapping[str, Curve], people: People | None, path: Path) 
         "BioSpec: ASSUMED parameters, its program's lightest skin",
     )
     for place, name, lines, note, side in zip(
-        axes[0], ("S1", "S2"), shown, notes, SIDES.values(), strict=True
+        axes[0], SHOWN, shown, notes, SIDES.values(), strict=True
     ):
         if people is not None:
             draw_people(place, people)

@@ -55,8 +55,14 @@ _CAROTENE = (
     "ESTIMATE from 13 ug per g of protein, SD 5, in the back's epidermis (Vahlquist et al., J "
     "Invest Dermatol 79:94, 1982): up to two SD more, at 0.3 g of protein per mL"
 )
-_DERMAL_WATER = "thesis, appendix D.1"
-_DERMAL_LIPIDS = "below, thesis, appendix D.1; above, ESTIMATE, somewhat more than table 6.2"
+_WATER = (
+    "thesis: 40 % less than table 6.2 is within physiological limits (figure 6.11), and 25 % more "
+    "(appendix D.1, whose ends are 0.75 of the stratum corneum's and 1.25 of the dermis's)"
+)
+_LIPIDS = (
+    "ESTIMATE: thesis, appendix D.1, has 11.32 (0.75 of the papillary dermis's) to 0.25 %, and "
+    "1.25 of table 6.2 if its other ranges are a guide"
+)
 _DERMAL_INDEX = (
     "1.36 at 1310 nm (Ding et al., Phys Med Biol 51:1479, 2006), 1.39 and 1.41 in table 6.2; the "
     "ends are an ESTIMATE: water has 1.32"
@@ -199,27 +205,24 @@ _RANGES = {
         "Pharmaceutics, chapter on skin); by volume an ESTIMATE",
         "[2, 125]",
     ),
-    "epidermis_water": Physiology(
-        21.0,
-        75.0,
-        "ESTIMATE: 0.35 to 1.25 of table 6.2, as the thesis varies the dermis's in appendix D.1",
-        "[2, 197]",
-    ),
-    "papillary_water": Physiology(26.25, 93.75, _DERMAL_WATER, "[2, 197]"),
-    "reticular_water": Physiology(26.25, 93.75, _DERMAL_WATER, "[2, 197]"),
+    "epidermis_water": Physiology(36.0, 75.0, _WATER, "[2, 197]"),
+    "papillary_water": Physiology(45.0, 93.75, _WATER, "[2, 197]"),
+    "reticular_water": Physiology(45.0, 93.75, _WATER, "[2, 197]"),
     "corneum_lipids": Physiology(
-        5.0, 40.0, "ESTIMATE, around 20 % (Walters and Roberts, 2002) and table 6.2", "[203]"
+        5.0,
+        45.0,
+        "ESTIMATE, around 20 % (Walters and Roberts, 2002, as a review quotes them) and 1.25 of "
+        "table 6.2",
+        "[203]",
     ),
-    "epidermis_lipids": Physiology(
-        0.25, 25.0, "ESTIMATE, as in the dermis, around table 6.2", "[2, 31, 174]"
-    ),
-    "papillary_lipids": Physiology(0.25, 20.0, _DERMAL_LIPIDS, "[2, 31, 174]"),
-    "reticular_lipids": Physiology(0.25, 20.0, _DERMAL_LIPIDS, "[2, 31, 174]"),
+    "epidermis_lipids": Physiology(0.25, 25.0, _LIPIDS, "[2, 31, 174]"),
+    "papillary_lipids": Physiology(0.25, 25.0, _LIPIDS, "[2, 31, 174]"),
+    "reticular_lipids": Physiology(0.25, 25.0, _LIPIDS, "[2, 31, 174]"),
     "corneum_keratin": Physiology(
         50.0,
         80.0,
         "ESTIMATE, around 60 % (Imae, Response to External Stimulation on Skin) and 70 % "
-        "(Walters and Roberts, 2002)",
+        "(Walters and Roberts, 2002, as a review quotes them)",
         "[60, 64, 170]",
     ),
     "corneum_urocanic_acid": Physiology(0.0029, 0.0287, "thesis, appendix A", "[211]"),

@@ -19,9 +19,11 @@ def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
     """Reflectance over wavelength, one line each, with a band of one standard error each way."""
     figure = Figure(figsize=SIZE_INCHES, dpi=DOTS_PER_INCH, layout="constrained")
     axes = figure.add_subplot()
-    for each in spectra:
+    for number, each in enumerate(spectra):
         marker = "o" if each.wavelengths.size == 1 else None
-        (line,) = axes.plot(each.wavelengths, each.reflectance, label=each.name, marker=marker)
+        (line,) = axes.plot(
+            each.wavelengths, each.reflectance, label=f"spectrum {number}", marker=marker
+        )
         if each.standard_error is not None:
             axes.fill_between(
                 each.wavelengths,
@@ -36,15 +38,17 @@ def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
     axes.set_ylim(bottom=0.0)
     axes.margins(x=0.0)
     axes.grid(alpha=0.3)
-    axes.legend()
+    for text, each in zip(axes.legend().get_texts(), spectra, strict=True):
+        text.set_parse_math(False)  # a name may hold a $ or begin with _
+        text.set_text(each.name)
     return figure
 
 
 def write_figure(figure: Figure, target: Path) -> None:
     """Write a figure as PNG or SVG, by the ending of the target's name.
 
-    The same figure gives the same bytes (with the same matplotlib): no date is written, and the
-    names inside an SVG do not depend on chance.
+    Equal figures give equal bytes with the same matplotlib: no date is written, and the names
+    inside an SVG do not depend on chance.
 
     Raises
     ------

@@ -145,8 +145,8 @@ def _number(name: str, value: Any) -> float:
     if isinstance(value, Real) and not isinstance(value, bool):
         try:
             return float(value)
-        except OverflowError:
-            pass
+        except OverflowError as error:
+            raise InputError(f"{name} is too large; expected a number.") from error
     raise InputError(f"{name} is {str(value)[:40]!r}; expected a number.")
 
 

@@ -2,7 +2,8 @@
 
 import csv
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,24 @@ class NamedSpectrum:
     wavelengths: np.ndarray
     reflectance: np.ndarray
     standard_error: np.ndarray | None
+
+
+def read_spectra(paths: Sequence[Path]) -> list[NamedSpectrum]:
+    """Read several spectra with `read_spectrum`; files of the same name are named by their paths.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read or is no spectrum, or standard input is asked for twice.
+    """
+    if list(paths).count(Path("-")) > 1:
+        raise InputError("standard input is given twice; allowed is once.")
+    spectra = [read_spectrum(path) for path in paths]
+    names = [each.name for each in spectra]
+    return [
+        each if names.count(each.name) == 1 else replace(each, name=str(path))
+        for each, path in zip(spectra, paths, strict=True)
+    ]
 
 
 def read_spectrum(path: Path) -> NamedSpectrum:
@@ -67,8 +86,10 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
     """Those of the columns `WANTED` that a CSV file has, as finite numbers."""
     try:
         text = sys.stdin.read() if path == Path("-") else path.read_text(encoding="utf-8-sig")
-        header, *rows = csv.reader(text.splitlines())
-        rows = [row for row in rows if row]
+        rows = [row for row in csv.reader(text.splitlines()) if row]
+        if not rows:
+            raise ValueError("it is empty")
+        header, *rows = rows
         if any(len(row) != len(header) for row in rows):
             raise ValueError("not every row has as many values as the header")
         columns = {

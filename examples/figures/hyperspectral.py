@@ -42,7 +42,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """Both curves without noise, and some wavelengths of them by random walk."""
     found = {"people": Task(lambda tick: effort.people, 0)}
     for name, angle in ANGLES.items():
-        found[name] = noise_free(SPECIMENS[name], RANGE, angle, effort)
+        found[name] = noise_free(SPECIMENS[name], RANGE, angle)
         found[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, angle, effort)
     return found
 

@@ -1,20 +1,25 @@
 """Reflectance curves for the figures, without noise or with as many rays as were asked for."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from examples.figures.measured_people import People
+from hylios.adding import solve
 from hylios.specimen import Specimen
-from hylios.spectra import Figures
+from hylios.tissue import Stack, stack
 from hylios.transport.simulate import spectrum
+from hylios.transport.survival import with_survival
 
 RANGE = np.arange(250.0, 2501.0, 5.0)
 """The whole range of the thesis at its resolution of 5 nm, (451,)."""
 
 THESIS_RAYS = 100_000
 """Rays per wavelength in the thesis (section 6.1.4)."""
+
+BATCH = 64
+"""Wavelengths between two words of progress of a curve without noise."""
 
 RAYS_AS_LONG = 1500
 """Rays that walk while a wavelength is solved without noise; it only serves the time left."""
@@ -80,15 +85,23 @@ def farthest(exact: Curve, walked: Curve) -> float:
     return float(np.max(np.abs(walked.reflectance - expected) / walked.standard_error))
 
 
-def noise_free(
-    specimen: Specimen,
-    wavelengths: Iterable[float],
-    angle: float,
-    effort: Effort,
-    known: Figures | None = None,
-) -> Task:
+def exact(stacks: Sequence[Stack], angle: float) -> np.ndarray:
+    """Reflectance (W,) of stacks without noise, by adding their layers."""
+    return solve([with_survival(each) for each in stacks], angle).total
+
+
+def noise_free(specimen: Specimen, wavelengths: Iterable[float], angle: float) -> Task:
     """The task of a curve without noise."""
-    return walked(specimen, wavelengths, angle, effort, known)
+    asked = np.asarray(wavelengths, dtype=float)
+
+    def work(tick: Tick) -> Curve:
+        found = []
+        for part in np.split(asked, range(BATCH, asked.size, BATCH)):
+            found.append(exact([stack(specimen, each) for each in part], angle))
+            tick(part.size)
+        return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
+
+    return Task(work, asked.size)
 
 
 def walked(
@@ -96,7 +109,6 @@ def walked(
     wavelengths: Iterable[float],
     angle: float,
     effort: Effort,
-    known: Figures | None = None,
 ) -> Task:
     """The task of a curve by random walk."""
     asked = np.asarray(wavelengths, dtype=float)
@@ -109,7 +121,6 @@ def walked(
             rays=effort.rays,
             seed=effort.seed,
             threads=effort.threads,
-            known=known,
             progress=lambda rays: tick(rays / RAYS_AS_LONG),
         )
         return Curve(asked, found.total, found.standard_error, effort.rays)

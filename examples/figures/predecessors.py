@@ -55,7 +55,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
         "people": Task(lambda tick: effort.people, 0),
     }
     for name in SHOWN:
-        found[name] = noise_free(SPECIMENS[name], WAVELENGTHS, ANGLE, effort)
+        found[name] = noise_free(SPECIMENS[name], WAVELENGTHS, ANGLE)
         found[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, ANGLE, effort)
     return found
 

@@ -3,9 +3,8 @@
 import argparse
 from pathlib import Path
 
-from hylios.errors import InputError
 from hylios.files import require_target
-from hylios.spectrum_file import read_spectrum
+from hylios.spectrum_file import read_spectra
 
 
 def add_to(commands) -> None:
@@ -25,9 +24,7 @@ def add_to(commands) -> None:
 def run(asked: argparse.Namespace) -> None:
     """Read, draw and write."""
     require_target(asked.output, (".png", ".svg"), asked.force)
-    if asked.files.count(Path("-")) > 1:
-        raise InputError("standard input is given twice; allowed is once.")
-    spectra = [read_spectrum(path) for path in asked.files]
+    spectra = read_spectra(asked.files)
 
     from hylios.pictures import spectra_figure, write_figure  # matplotlib takes a second
 

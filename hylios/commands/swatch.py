@@ -10,7 +10,7 @@ from hylios.errors import InputError, require_range, require_whole
 from hylios.files import require_target
 from hylios.shell import add_skin_arguments, add_work_arguments, chosen_skin, require_work
 from hylios.spectra import estimates_within
-from hylios.spectrum_file import NamedSpectrum, read_spectrum
+from hylios.spectrum_file import NamedSpectrum, read_spectra
 from hylios.tissue import FIGURES
 
 DESCRIPTION = """\
@@ -43,11 +43,9 @@ def run(asked: argparse.Namespace) -> None:
     """Read or simulate, and write."""
     require_target(asked.output, (".png",), asked.force)
     size = require_whole("size", asked.size, 1, 4096)
-    spectra = [read_spectrum(path) for path in asked.files]
-    if not spectra:
-        spectra = [_simulated(asked)]
-    elif asked.specimen or asked.set or asked.reading or asked.figure:
+    if asked.files and (asked.specimen or asked.set or asked.reading or asked.figure):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
+    spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
 
     from hylios.colour import srgb, swatch
     from hylios.pictures import swatches, write_pixels

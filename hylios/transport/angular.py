@@ -1,4 +1,30 @@
-"""Where reflected light goes: the BRDF of a stack or of a specimen at one wavelength."""
+"""Where reflected light goes: the BRDF of a stack or of a specimen at one wavelength.
+
+Helmholtz reciprocity, f_r(i, o) = f_r(o, i), holds for Fresnel's flat interfaces, absorbers,
+scattering by a phase function of one angle and the diffuse floor, and within noise (1 %) for
+melanosomes. It does not hold for skin as the thesis has it, because of two of its rules:
+
+- Rayleigh scattering once in a traversal of the papillary dermis: a ray is thinned by the fibres
+  on its way to them but not on its way back, so a path and its reverse do not weigh the same.
+- A normal drawn by 4.8 for each ray that meets the surface, however the facet is seen: the
+  surface term is p(h) F / (4 (h i) cos(o) Z(i)), with p the density of 4.8 and Z the share of
+  normals that need no second draw, so cos(o) Z(i) f_r is symmetric where f_r should be. What
+  passes the surface twice has the same fault, weaker.
+
+Measured as f_r(15, 75 degrees) / f_r(75, 15 degrees), means over azimuth and 10 degrees, 600,000
+rays each, standard error in brackets:
+
+=========================================  ============  ============
+subsurface, 550 nm                         S3            S4
+=========================================  ============  ============
+as the thesis has it                       1.449 (.020)  1.252 (.030)
+flat surface                               1.357 (.019)  0.997 (.028)
+rayleigh = every_collision                 0.974 (.010)  1.246 (.024)
+flat surface, rayleigh = every_collision   0.999 (.010)  0.989 (.021)
+=========================================  ============  ============
+
+The surface's own ratio was 3.5 in S3 and 2.4 in S4; cos(15) / cos(75) is 3.7, before Z.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -88,7 +88,7 @@ def test_a_file_without_a_base_has_the_file_s_name_and_the_usual_values_of_table
         ('base = "S3"\npapillary_blood = 1979-05-27', "papillary_blood is '1979-05-27'"),
         ('base = "S3"\npapillary_blood = nan', "papillary_blood is nan %; physiological is 0.08"),
         ('base = "S3"\npapillary_blood = 50', "physiological is 0.08 to 4 %, allowed is 0 to 100"),
-        (f'base = "S3"\npapillary_blood = 1{"0" * 400}', "expected a number."),
+        (f'base = "S3"\npapillary_blood = 1{"0" * 400}', "papillary_blood is too large; expected"),
         (f'base = "S3"\npapillary_blood = 1{"0" * 5000}', "cannot be read: "),
         ('base = "S3"\nname = 3', "name is 3; allowed is printable text."),
         ('base = "S3"\nname = "a\\nb"', "allowed is printable text."),

@@ -83,7 +83,9 @@ def _most_even(candidates: np.ndarray, position: np.ndarray, brightness: np.ndar
     """The candidate (3,) whose patch is seen whole and has the most even light."""
     lights = [brightness[_near(position, place)] for place in candidates]
     whole = 0.8 * max(light.size for light in lights)
-    unevenness = [light.std() / light.mean() if light.size >= whole else np.inf for light in lights]
+    unevenness = [
+        light.std() / light.mean() if light.size >= whole else np.inf for light in lights
+    ]
     return candidates[int(np.argmin(unevenness))]
 
 
@@ -174,11 +176,6 @@ def write_csv(found: Sequence[Reading], path: Path) -> None:
             for linear in (each.rendered, each.predicted):
                 numbers += [*srgb_bytes(linear), *(f"{value:.3f}" for value in colour.lab(linear))]
             writer.writerow(
-                [
-                    f"{each.day:g}",
-                    each.skin,
-                    *numbers,
-                    f"{each.difference:.3f}",
-                    f"{each.entering:.4f}",
-                ]
+                [f"{each.day:g}", each.skin, *numbers, f"{each.difference:.3f}",
+                 f"{each.entering:.4f}"]
             )

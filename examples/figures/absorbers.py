@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from examples.figures.drawing import COLOURS, save, sheet
+from examples.figures.drawing import COLOURS, sheet
 from examples.figures.light import Effort, Task
 from examples.figures.report import Row
+from hylios.pictures import write_figure
 from hylios.spectra import Figure, figures
 from hylios.tissue import HEMOGLOBIN_WEIGHT
 
@@ -100,7 +101,7 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     figure.suptitle(
         "A.1  Absorbers of the skin: solid as measured, dashed estimated (hylios.spectra)"
     )
-    save(figure, folder / "A.1.png")
+    write_figure(figure, folder / "A.1.png")
     return [
         Row("A.1", f"{name}, {part.first:g} to {part.last:g} nm", "plotted", part.what, "none")
         for panel in PANELS

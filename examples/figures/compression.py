@@ -7,9 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from examples.figures.drawing import COLOURS, plot, reflectance_axes, save, sheet, swatch
+from examples.figures.drawing import COLOURS, plot, reflectance_axes, sheet, swatch
 from examples.figures.light import RANGE, THESIS_RAYS, Curve, Effort, Task, noise_free, noisy
-from examples.figures.report import Row, claim, relative
+from examples.figures.report import Row, claim, with_noise
+from hylios.pictures import write_figure
 from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 FIGURES = (*(f"D.{number}" for number in range(1, 10)), "table D.1")
@@ -30,18 +31,21 @@ LOW_ERROR = 0.01
 """RMSE that the thesis calls low."""
 
 NOISY_RAYS = (1_000, 10_000, THESIS_RAYS, 1_000_000, 10_000_000, 100_000_000)
+NOISE_SHARE = 0.1
+"""What noise may add to a maximum RMSE and not be what is measured."""
 
-MELANIN = ((24.0, 1.5), (62.5, 5.0))
-"""Eumelanin and pheomelanin in mg/mL."""
+TYPES = ("S3", "S4")
+"""Whose melanin and blood are varied."""
 
-BLOOD = tuple(np.geomspace(0.225, 3.12, 4))
-"""Percent of both dermal layers."""
+LEVELS = (0.75, 1.25)
+"""Melanin and blood relative to the type's."""
 
 WATER = tuple(np.linspace(0.75, 1.25, 4))
 LIPIDS = (0.75, 1.0, 1.25)
-"""Water and lipids of every layer relative to table 6.2."""
+"""Water in every layer, and lipids below the stratum corneum, relative to table 6.2."""
 
-LAYERS = ("corneum", "epidermis", "papillary", "reticular")
+WATERY = ("corneum", "epidermis", "papillary", "reticular")
+FATTY = WATERY[1:]
 
 
 @dataclass(frozen=True)
@@ -66,36 +70,44 @@ CASES = (
 def database() -> dict[str, Specimen]:
     """The 144 specimens: N1 to N96 melanotic, N97 to N144 without melanin.
 
-    The thesis prints the ranges, not the grid. Two levels of melanin over 48 of blood, water and
-    lipids give its 96 and, with the melanin removed, its 48. The ends of its ranges are 0.75 and
-    1.25 times values of tables 6.1 and 6.2, for water over all layers (26.25 = 0.75 x 35, 93.75 =
-    1.25 x 75); so water and lipids are scaled in every layer alike.
+    The thesis prints ranges, not the grid, but their ends are 0.75 times values of S3 and 1.25
+    times values of S4 (eumelanin 24 = 0.75 x 32 and 62.5 = 1.25 x 50; so too pheomelanin and
+    blood), and of table 6.2 (water 26.25 = 0.75 x 35 and 93.75 = 1.25 x 75; lipids 11.32 = 0.75
+    x 15.1, and 0.25, read as 25 % = 1.25 x 20). So here S3, with its own melanin and blood or
+    S4's, has melanin and blood at 2 levels, water at 4, lipids at 3: 96 specimens, of which 48
+    are left without melanin. How many levels each has is a guess. Wettest, water and lipids
+    together fill more than the dermis, which the thesis's own ranges do not exclude.
     """
-    grid = list(product(BLOOD, WATER, LIPIDS))
-    skins = [coloured(mixed(*each), *melanin) for melanin in MELANIN for each in grid]
+    grid = list(product(TYPES, LEVELS, WATER, LIPIDS))
+    skins = [with_melanin(mixed(*each), each[0], level) for level in LEVELS for each in grid]
     skins += [amelanotic(mixed(*each)) for each in grid]
     return {f"N{number}": replace(skin, name=f"N{number}") for number, skin in enumerate(skins, 1)}
 
 
-def mixed(blood: float, water: float, lipids: float) -> Specimen:
-    """S3 with other blood (percent), and water and lipids scaled."""
-    values = {"papillary_blood": blood, "reticular_blood": blood}
-    for layer in LAYERS:
-        values[f"{layer}_water"] = water * getattr(SPECIMENS["S3"], f"{layer}_water")
-        values[f"{layer}_lipids"] = lipids * getattr(SPECIMENS["S3"], f"{layer}_lipids")
-    return with_values(SPECIMENS["S3"], values)
+def mixed(kind: str, blood: float, water: float, lipids: float) -> Specimen:
+    """S3 with a type's blood times a factor, and its own water and lipids times theirs."""
+    start = SPECIMENS["S3"]
+    values = {
+        f"{layer}_blood": blood * getattr(SPECIMENS[kind], f"{layer}_blood")
+        for layer in ("papillary", "reticular")
+    }
+    values |= {f"{layer}_water": water * getattr(start, f"{layer}_water") for layer in WATERY}
+    values |= {f"{layer}_lipids": lipids * getattr(start, f"{layer}_lipids") for layer in FATTY}
+    return with_values(start, values, allow_unphysical=True)
 
 
-def coloured(skin: Specimen, eumelanin: float, pheomelanin: float) -> Specimen:
-    """The specimen with other concentrations of melanin, in mg/mL."""
-    values = {"eumelanin_concentration": eumelanin, "pheomelanin_concentration": pheomelanin}
-    return with_values(skin, values)
+def with_melanin(skin: Specimen, kind: str, level: float) -> Specimen:
+    """The specimen with a type's concentrations of melanin times a factor."""
+    names = ("eumelanin_concentration", "pheomelanin_concentration")
+    values = {name: level * getattr(SPECIMENS[kind], name) for name in names}
+    return with_values(skin, values, allow_unphysical=True)
 
 
 def amelanotic(skin: Specimen) -> Specimen:
     """The specimen without melanin."""
     kinds = ("melanosomes", "colloidal_melanin")
-    return with_values(skin, {f"{layer}_{kind}": 0.0 for layer in EPIDERMIS for kind in kinds})
+    values = {f"{layer}_{kind}": 0.0 for layer in EPIDERMIS for kind in kinds}
+    return with_values(skin, values, allow_unphysical=True)
 
 
 def subsets(spectra: np.ndarray) -> dict[str, np.ndarray]:
@@ -106,7 +118,7 @@ def subsets(spectra: np.ndarray) -> dict[str, np.ndarray]:
 
 def tasks(effort: Effort) -> dict[str, Task]:
     """A curve without noise for each specimen."""
-    return {name: noise_free(skin, RANGE, ANGLE, effort) for name, skin in database().items()}
+    return {name: noise_free(skin, RANGE, ANGLE) for name, skin in database().items()}
 
 
 def reconstructed(spectra: np.ndarray, components: int) -> np.ndarray:
@@ -156,6 +168,7 @@ def largest(spectra: np.ndarray, method: str) -> dict[str, list[float]]:
 def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
     """Draw all figures and compare."""
     spectra = np.array([results[name].reflectance for name in database()])
+    printed_noise = noisy(spectra, THESIS_RAYS, seed=1)
     draw_database(spectra, folder / "D.1.png")
     rows = []
     for case in CASES:
@@ -163,7 +176,17 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
             ("PCA", case.whole, case.printed_whole),
             ("PPCA", case.pieces, case.printed_pieces),
         ):
-            rows += draw_case(spectra, case, method, number, printed, folder)
+            found = draw_case(spectra, case, method, number, printed, folder)
+            as_noisy = piece_errors(printed_noise, case, method, worst(spectra, case)[1])
+            rows += [
+                with_noise(
+                    number,
+                    f"{method}, {case.components} components, RMSE in {name}",
+                    *each,
+                    THESIS_RAYS,
+                )
+                for name, *each in zip(PIECES, printed, found, as_noisy, strict=True)
+            ]
     draw_swatches(
         spectra, CASES[0], (("PCA", 1), ("PCA", 2)), folder / "D.3.png", "D.3  Melanotic subset"
     )
@@ -171,8 +194,8 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
         spectra, CASES[2], (("PCA", 4), ("PPCA", 4)), folder / "D.9.png", "D.9  All specimens"
     )
     noise = noise_levels(spectra)
-    draw_table(spectra, noise, folder / "table D.1.png")
-    return [*table_rows(spectra), *rows, *noise_rows(spectra, noise)]
+    draw_table(spectra, printed_noise, noise, folder / "table D.1.png")
+    return [*table_rows(spectra, printed_noise), *rows, *noise_rows(spectra, noise)]
 
 
 def draw_database(spectra: np.ndarray, path: Path) -> None:
@@ -183,7 +206,7 @@ def draw_database(spectra: np.ndarray, path: Path) -> None:
         lines[0].set_label(f"{len(part)} {name}")
     reflectance_axes(axes[0, 0], RANGE[0], RANGE[-1], "D.1  144 specimens, incidence 10 degrees")
     axes[0, 0].legend()
-    save(figure, path)
+    write_figure(figure, path)
 
 
 def worst(spectra: np.ndarray, case: Case) -> tuple[np.ndarray, int, int]:
@@ -201,11 +224,14 @@ def draw_case(
     number: str,
     printed: tuple[float, float, float],
     folder: Path,
-) -> list[Row]:
-    """One of figures D.2, D.4 to D.8: a spectrum, its reconstruction and their difference."""
+) -> list[float]:
+    """One of figures D.2, D.4 to D.8: a spectrum, its reconstruction and their difference.
+
+    Returns the RMSE of each region.
+    """
     part, row, specimen = worst(spectra, case)
     again = METHODS[method](part, case.components)[row]
-    found = [float(np.sqrt(np.mean((part[row] - again)[piece] ** 2))) for piece in pieces()]
+    found = piece_errors(spectra, case, method, row)
     figure, axes = sheet(8.5, 4.6)
     place = axes[0, 0]
     place.errorbar(
@@ -233,11 +259,15 @@ def draw_case(
     )
     place.title.set_fontsize(9)
     place.legend()
-    save(figure, folder / f"{number}.png")
-    return [
-        relative(number, f"{method}, {case.components} components, RMSE in {name}", theirs, ours)
-        for name, ours, theirs in zip(PIECES, found, printed, strict=True)
-    ]
+    write_figure(figure, folder / f"{number}.png")
+    return found
+
+
+def piece_errors(spectra: np.ndarray, case: Case, method: str, row: int) -> list[float]:
+    """RMSE in each region of a row of a case's subset."""
+    part = subsets(spectra)[case.subset]
+    off = part[row] - METHODS[method](part, case.components)[row]
+    return [float(np.sqrt(np.mean(off[piece] ** 2))) for piece in pieces()]
 
 
 def exact(reflectance: np.ndarray) -> Curve:
@@ -263,7 +293,7 @@ def draw_swatches(
         for place, domain in zip(line, ("UV", "visible", "IR"), strict=True):
             swatch(place, curve, domain, f"{domain}: {name}")
     figure.suptitle(f"{title}, N{specimen}; UV and IR in pseudo colour")
-    save(figure, path)
+    write_figure(figure, path)
 
 
 def noise_levels(spectra: np.ndarray) -> dict[str, list[float]]:
@@ -275,20 +305,29 @@ def noise_levels(spectra: np.ndarray) -> dict[str, list[float]]:
     return found
 
 
-def draw_table(spectra: np.ndarray, noise: Mapping[str, list[float]], path: Path) -> None:
+def draw_table(
+    spectra: np.ndarray, printed_noise: np.ndarray, noise: Mapping[str, list[float]], path: Path
+) -> None:
     """Table D.1 as a picture: maximum RMSE by components, and at 8 by rays."""
     figure, axes = sheet(12.0, 4.8, columns=2)
     ways = {method: largest(spectra, method) for method in METHODS}
+    as_noisy = largest(printed_noise, "PCA")
     left, right = axes[0]
     for colour, name in zip(COLOURS, PRINTED, strict=False):
         left.plot(COMPONENTS, PRINTED[name], "o", mfc="none", color=colour, label=f"{name}, thesis")
-        left.plot(COMPONENTS, ways["PCA"][name], "-x", color=colour, label=f"{name}, PCA")
+        left.plot(COMPONENTS, ways["PCA"][name], "-", color=colour, label=f"{name}, PCA")
+        left.plot(COMPONENTS, as_noisy[name], "x", color=colour, label=f"{name}, PCA with noise")
         left.plot(COMPONENTS, ways["PPCA"][name], ":", color=colour, label=f"{name}, PPCA")
         right.plot(NOISY_RAYS, noise[name], "-x", color=colour, label=name)
         right.axhline(ways["PCA"][name][-1], color=colour, ls="--", lw=0.7)
         right.plot(THESIS_RAYS, PRINTED[name][-1], "o", mfc="none", color=colour)
     left.axhline(LOW_ERROR, color="grey", lw=0.6)
-    left.set(yscale="log", xlabel="components", ylabel="maximum RMSE", title="without noise")
+    left.set(
+        yscale="log",
+        xlabel="components",
+        ylabel="maximum RMSE",
+        title=f"noise: that of {THESIS_RAYS:,} rays",
+    )
     right.set(
         xscale="log",
         yscale="log",
@@ -300,16 +339,17 @@ def draw_table(spectra: np.ndarray, noise: Mapping[str, list[float]], path: Path
         place.grid(alpha=0.25)
         place.legend(fontsize=7)
     figure.suptitle("Table D.1")
-    save(figure, path)
+    write_figure(figure, path)
 
 
-def table_rows(spectra: np.ndarray) -> list[Row]:
+def table_rows(spectra: np.ndarray, printed_noise: np.ndarray) -> list[Row]:
     """Table D.1 and what the text says of it."""
     whole, apart = largest(spectra, "PCA"), largest(spectra, "PPCA")
+    as_noisy = largest(printed_noise, "PCA")
     rows = [
-        relative("table D.1", f"{name}, {count} components, maximum RMSE", printed, ours)
-        for name in PRINTED
-        for count, printed, ours in zip(COMPONENTS, PRINTED[name], whole[name], strict=True)
+        with_noise("table D.1", f"{name}, {count} components, maximum RMSE", *each, THESIS_RAYS)
+        for name, printed in PRINTED.items()
+        for count, *each in zip(COMPONENTS, printed, whole[name], as_noisy[name], strict=True)
     ]
     for name, printed in PRINTED.items():
         enough = needed(printed)
@@ -341,16 +381,26 @@ def needed(values: list[float] | tuple[float, ...]) -> int | None:
 
 
 def noise_rows(spectra: np.ndarray, noise: Mapping[str, list[float]]) -> list[Row]:
-    """How noise moves the maximum RMSE at 8 components."""
-    without = largest(spectra, "PCA")
-    return [
-        Row(
-            "table D.1",
-            f"{name}, 8 components, maximum RMSE with {rays:,} rays",
-            f"{PRINTED[name][-1]:g} ({THESIS_RAYS:,} rays)" if rays == THESIS_RAYS else "",
-            f"{found:.5f} (without noise {without[name][-1]:.5f})",
-            f"{rays:,} rays",
+    """How many rays it takes for the noise not to be what is measured at 8 components."""
+    without = {name: values[-1] for name, values in largest(spectra, "PCA").items()}
+    rows = []
+    for name, found in noise.items():
+        enough = [
+            rays
+            for rays, value in zip(NOISY_RAYS, found, strict=True)
+            if value < (1.0 + NOISE_SHARE) * without[name]
+        ]
+        by_rays = ", ".join(
+            f"{value:.5f} ({rays:.0e})" for rays, value in zip(NOISY_RAYS, found, strict=True)
         )
-        for name in PRINTED
-        for rays, found in zip(NOISY_RAYS, noise[name], strict=True)
-    ]
+        needed = f"{enough[0]:.0e} rays" if enough else f"more than {NOISY_RAYS[-1]:.0e} rays"
+        rows.append(
+            Row(
+                "table D.1",
+                f"{name}, 8 components: rays for noise to add less than {NOISE_SHARE:.0%}",
+                "",
+                f"{needed}: without noise {without[name]:.5f}; with {by_rays}",
+                "drawn, one ray returns or not",
+            )
+        )
+    return rows

@@ -1,35 +1,24 @@
-"""What the figures share: axes, colours, swatches, and how a picture gets into its file."""
+"""What the figures share: axes, lines, bars, swatches."""
 
-import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from examples.figures.light import Curve
-from hylios.colour import linear_rec709, srgb
+from hylios.colour import BANDS, srgb
+from hylios.colour import swatch as colour_of_band
 
 COLOURS = ("black", "#c1272d", "#0072b2", "#009e73", "#e69f00", "#7b3294")
-DOMAINS = {"UV": (250.0, 400.0), "visible": (400.0, 700.0), "IR": (700.0, 2500.0)}
-"""Domains of section 6.1.3 in nm; their ends belong to both."""
-
-TINTS = {"UV": (0.80, 0.75, 1.0), "IR": (1.0, 0.80, 0.75)}
-"""What a domain that nobody sees is tinted with, in sRGB."""
+DOMAINS = {"UV": BANDS["uv"], "visible": BANDS["visible"], "IR": BANDS["ir"]}
+"""Domains of section 6.1.3 in nm; where two meet belongs to both."""
 
 
 def sheet(width: float = 7.0, height: float = 4.2, columns: int = 1, rows: int = 1, **options):
     """A figure of so many inches, and its axes as an array (rows, columns)."""
     figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
     return figure, figure.subplots(rows, columns, squeeze=False, **options)
-
-
-def save(figure: Figure, path: Path) -> None:
-    """Write a PNG, under its name only once it is whole."""
-    unfinished = path.with_name("." + path.name)
-    figure.savefig(unfinished, format="png")
-    os.replace(unfinished, path)
 
 
 def reflectance_axes(axes: Axes, first: float, last: float, title: str = "") -> None:
@@ -64,22 +53,10 @@ def points(axes: Axes, curves: Sequence[Curve], domain: tuple[float, float]) -> 
         )
 
 
-def swatch_colour(curve: Curve, domain: str) -> np.ndarray:
-    """sRGB (3,) of a curve: through D65 in the visible, elsewhere a tinted grey.
-
-    The grey is the mean reflectance over the domain, taken as linear light.
-    """
-    first, last = DOMAINS[domain]
-    inside = (curve.wavelengths >= first) & (curve.wavelengths <= last)
-    if domain == "visible":
-        return srgb(linear_rec709(curve.wavelengths[inside], curve.reflectance[inside]))
-    grey = srgb(np.full(3, curve.reflectance[inside].mean()))
-    return grey * np.array(TINTS[domain])
-
-
 def swatch(axes: Axes, curve: Curve, domain: str, title: str) -> None:
-    """Fill axes with the colour of a curve."""
-    axes.imshow(swatch_colour(curve, domain)[None, None])
+    """Fill axes with the colour of a curve over the whole range."""
+    colour = srgb(colour_of_band(curve.wavelengths, curve.reflectance, domain.lower()))
+    axes.imshow(colour[None, None])
     axes.set(xticks=[], yticks=[])
     axes.set_title(title, fontsize=9)
 

@@ -1,13 +1,16 @@
 """Reflectance curves for the figures, without noise or with as many rays as were asked for."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from examples.figures.measured_people import People
+from hylios.adding import solve
 from hylios.specimen import Specimen
-from hylios.spectra import Figures
+from hylios.tissue import Stack, stack
 from hylios.transport.simulate import spectrum
+from hylios.transport.survival import with_survival
 
 RANGE = np.arange(250.0, 2501.0, 5.0)
 """The whole range of the thesis at its resolution of 5 nm, (451,)."""
@@ -15,17 +18,27 @@ RANGE = np.arange(250.0, 2501.0, 5.0)
 THESIS_RAYS = 100_000
 """Rays per wavelength in the thesis (section 6.1.4)."""
 
+BATCH = 64
+"""Wavelengths between two words of progress of a curve without noise."""
+
+RAYS_AS_LONG = 1500
+"""Rays that walk while a wavelength is solved without noise; it only serves the time left."""
+
 Tick = Callable[[float], object]
 """Told how much work of what size has ended."""
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How many rays per wavelength, from which seed, on how many threads (all cores if None)."""
+    """How many rays per wavelength, from which seed, on how many threads (all cores if None).
+
+    And beside which measured people, if any.
+    """
 
     rays: int = THESIS_RAYS
     seed: int = 1
     threads: int | None = None
+    people: People | None = None
 
 
 @dataclass(frozen=True)
@@ -51,10 +64,13 @@ class Curve:
 
 @dataclass(frozen=True)
 class Task:
-    """Some work, given what to tell of its progress, and its size in wavelengths."""
+    """Some work, given what to tell of its progress, and its size.
+
+    The unit is what a curve without noise takes for one wavelength.
+    """
 
     work: Callable[[Tick], object]
-    size: int
+    size: float
 
 
 def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
@@ -69,15 +85,23 @@ def farthest(exact: Curve, walked: Curve) -> float:
     return float(np.max(np.abs(walked.reflectance - expected) / walked.standard_error))
 
 
-def noise_free(
-    specimen: Specimen,
-    wavelengths: Iterable[float],
-    angle: float,
-    effort: Effort,
-    known: Figures | None = None,
-) -> Task:
+def exact(stacks: Sequence[Stack], angle: float) -> np.ndarray:
+    """Reflectance (W,) of stacks without noise, by adding their layers."""
+    return solve([with_survival(each) for each in stacks], angle).total
+
+
+def noise_free(specimen: Specimen, wavelengths: Iterable[float], angle: float) -> Task:
     """The task of a curve without noise."""
-    return walked(specimen, wavelengths, angle, effort, known)
+    asked = np.asarray(wavelengths, dtype=float)
+
+    def work(tick: Tick) -> Curve:
+        found = []
+        for part in np.split(asked, range(BATCH, asked.size, BATCH)):
+            found.append(exact([stack(specimen, each) for each in part], angle))
+            tick(part.size)
+        return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
+
+    return Task(work, asked.size)
 
 
 def walked(
@@ -85,7 +109,6 @@ def walked(
     wavelengths: Iterable[float],
     angle: float,
     effort: Effort,
-    known: Figures | None = None,
 ) -> Task:
     """The task of a curve by random walk."""
     asked = np.asarray(wavelengths, dtype=float)
@@ -98,9 +121,8 @@ def walked(
             rays=effort.rays,
             seed=effort.seed,
             threads=effort.threads,
-            known=known,
-            progress=lambda rays: tick(rays / effort.rays),
+            progress=lambda rays: tick(rays / RAYS_AS_LONG),
         )
         return Curve(asked, found.total, found.standard_error, effort.rays)
 
-    return Task(work, asked.size)
+    return Task(work, asked.size * effort.rays / RAYS_AS_LONG)

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from examples.figures.drawing import COLOURS, bars, plot, points, reflectance_axes, save, sheet
+from examples.figures.drawing import COLOURS, bars, plot, points, reflectance_axes, sheet
 from examples.figures.light import Curve, Effort, Task, noise_free, walked
 from examples.figures.report import Row, agreement, claim
+from hylios.pictures import write_figure
 from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 FIGURES = ("5.3", "C.1", "C.2", "C.3", "C.4", "C.5")
@@ -62,7 +63,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """Each curve without noise, and some wavelengths of it by random walk."""
     found = {}
     for name, skin in shown().items():
-        found[name] = noise_free(skin, WAVELENGTHS, ANGLE, effort)
+        found[name] = noise_free(skin, WAVELENGTHS, ANGLE)
         found[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
     return found
 
@@ -100,7 +101,7 @@ def draw_distributions(results: Mapping[str, Curve], path: Path) -> None:
     reflectance_axes(axes[0, 1], *visible, "same melanin content, incidence 10 degrees")
     axes[0, 1].legend()
     figure.suptitle("5.3  Melanin distributions in darkly pigmented skin (S4)")
-    save(figure, path)
+    write_figure(figure, path)
 
 
 def draw_cases(results: Mapping[str, Curve], case: str, number: str, folder: Path) -> None:
@@ -115,7 +116,7 @@ def draw_cases(results: Mapping[str, Curve], case: str, number: str, folder: Pat
         reflectance_axes(place, *domain, f"{name} (grey: 600 to 900 nm)")
         place.legend()
     figure.suptitle(f"{number}  {case.capitalize()} and colloidal case, incidence 10 degrees")
-    save(figure, folder / f"{number}.png")
+    write_figure(figure, folder / f"{number}.png")
 
 
 def draw_errors(results: Mapping[str, Curve], case: str, number: str, folder: Path) -> None:
@@ -126,7 +127,7 @@ def draw_errors(results: Mapping[str, Curve], case: str, number: str, folder: Pa
     }
     bars(axes[0, 0], list(REGIONS), series, "RMSE")
     axes[0, 0].set_title(f"{number}  {case.capitalize()} case against colloidal case")
-    save(figure, folder / f"{number}.png")
+    write_figure(figure, folder / f"{number}.png")
 
 
 def draw_variation(results: Mapping[str, Curve], path: Path) -> None:
@@ -152,7 +153,7 @@ def draw_variation(results: Mapping[str, Curve], path: Path) -> None:
     )
     reflectance_axes(place, *domain, "C.5  Melanosomes' place in S4, incidence 10 degrees")
     place.legend()
-    save(figure, path)
+    write_figure(figure, path)
 
 
 def rmse(results: Mapping[str, Curve], name: str, case: str, region: str) -> float:

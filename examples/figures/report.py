@@ -1,11 +1,11 @@
 """What the thesis prints beside what this project finds, line by line."""
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from examples.figures.light import Curve, farthest
+from hylios.files import written_beside
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,18 @@ def relative(where: str, what: str, printed: float, ours: float, share: float | 
     )
 
 
+def with_noise(where: str, what: str, printed: float, ours: float, noisy: float, rays: int) -> Row:
+    """A row for a printed number, ours without noise and with that of so many rays."""
+    return Row(
+        where,
+        what,
+        f"{printed:g}",
+        f"{ours:.4f} ({ours / printed - 1.0:+.0%}); with noise {noisy:.4f} "
+        f"({noisy / printed - 1.0:+.0%})",
+        f"that of {rays:,} rays",
+    )
+
+
 def claim(where: str, what: str, printed: str, ours: str, met: bool) -> Row:
     """A row for something that the thesis says, without noise."""
     return Row(where, what, printed, ours, aim="as printed", met=met)
@@ -80,6 +92,5 @@ def markdown(rows: Sequence[Row]) -> str:
 
 def write(path: Path, rows: Sequence[Row], heading: str) -> None:
     """Write the report, under its name only once it is whole."""
-    unfinished = path.with_name("." + path.name)
-    unfinished.write_text(f"{heading}\n\n{markdown(rows)}", encoding="utf-8")
-    os.replace(unfinished, path)
+    with written_beside(path) as beside:
+        beside.write_text(f"{heading}\n\n{markdown(rows)}", encoding="utf-8")

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from examples.figures import dna
 from examples.figures.drawing import (
     DOMAINS,
     bars,
     plot,
     points,
     reflectance_axes,
-    save,
     sheet,
     swatch,
 )
@@ -27,6 +27,7 @@ from examples.figures.light import (
     walked,
 )
 from examples.figures.report import Row, agreement, relative
+from hylios.pictures import write_figure
 from hylios.specimen import SPECIMENS, Specimen, with_values
 
 FIGURES = (*(f"6.{number}" for number in range(13, 19)), "table 6.3")
@@ -85,8 +86,9 @@ def tasks(effort: Effort) -> dict[str, Task]:
     skins = {"all": start, **{name: without(start, name) for name in MATERIALS}}
     found = {}
     for name, skin in skins.items():
-        found[name] = noise_free(skin, RANGE, ANGLE, effort)
+        found[name] = noise_free(skin, RANGE, ANGLE)
         found[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
+    found["readings"] = dna.task()
     return found
 
 
@@ -126,7 +128,7 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
         for name in MATERIALS
     ]
     base = agreement("table 6.3", "S3", results["all"], results["all walked"])
-    return [*table_rows(results), base, *checks]
+    return [*table_rows(results), *results["readings"], base, *checks]
 
 
 def draw_pair(
@@ -152,7 +154,7 @@ def draw_pair(
     handles, names = right.get_legend_handles_labels()
     right.legend(dict(zip(names, handles, strict=True)).values(), dict.fromkeys(names), fontsize=8)
     figure.suptitle(f"{number}  S3 without {materials[0]} or {materials[1]}, incidence 8 degrees")
-    save(figure, folder / f"{number}.png")
+    write_figure(figure, folder / f"{number}.png")
 
 
 def draw_swatches(
@@ -165,7 +167,7 @@ def draw_swatches(
     for place, (title, name) in zip(axes[0], shown.items(), strict=True):
         swatch(place, results[name], domain, title)
     figure.suptitle(f"{number}  {domain}{'' if domain == 'visible' else ', pseudo colour'}")
-    save(figure, folder / f"{number}.png")
+    write_figure(figure, folder / f"{number}.png")
 
 
 def draw_table(results: Mapping[str, Curve], path: Path) -> None:
@@ -187,7 +189,7 @@ def draw_table(results: Mapping[str, Curve], path: Path) -> None:
         bars(place, list(MATERIALS), series, "mean sensitivity index")
         place.set_title(title)
     figure.suptitle("Table 6.3  Removal of a material from S3")
-    save(figure, path)
+    write_figure(figure, path)
 
 
 def table_rows(results: Mapping[str, Curve]) -> list[Row]:

@@ -113,6 +113,11 @@ def srgb(linear: np.ndarray) -> np.ndarray:
     return np.asarray(colour.models.eotf_inverse_sRGB(np.clip(linear, 0.0, 1.0)))
 
 
+def linear_of_srgb(encoded: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 (..., 3) of sRGB (..., 3), 0 to 1."""
+    return np.asarray(colour.models.eotf_sRGB(encoded))
+
+
 def lab(linear: np.ndarray) -> np.ndarray:
     """CIE L*a*b* (..., 3) under D65 of linear Rec.709."""
     space = colour.RGB_COLOURSPACES["ITU-R BT.709"]

@@ -48,12 +48,13 @@ def read_spectra(paths: Sequence[Path]) -> list[NamedSpectrum]:
     ]
 
 
-def read_spectrum(path: Path) -> NamedSpectrum:
+def read_spectrum(path: Path, column: str = "total") -> NamedSpectrum:
     """Read a spectrum from CSV with a header.
 
-    Needed are the columns `wavelength_nm`, ascending, and `total`, the reflectance;
-    `standard_error` is read where there is one, other columns are ignored. The path `-` is
-    standard input. The spectrum is named as the file without its ending.
+    Needed are the columns `wavelength_nm`, ascending, and `column`, the reflectance;
+    `standard_error` is read where there is one, other columns and lines that start with # are
+    ignored. Two columns of numbers without a header will do as well. The path `-` is standard
+    input. The spectrum is named as the file without its ending.
 
     Raises
     ------
@@ -61,44 +62,51 @@ def read_spectrum(path: Path) -> NamedSpectrum:
         If the file cannot be read or is no spectrum.
     """
     name = "standard input" if path == Path("-") else path.stem
-    table = _columns(path)
-    for needed in ("wavelength_nm", "total"):
+    wanted = ("wavelength_nm", column, "standard_error")
+    table = _columns(path, wanted)
+    for needed in wanted[:2]:
         if needed not in table:
             raise InputError(
-                f"{path} has no column {needed}; a spectrum needs wavelength_nm,total."
+                f"{path} has no column {needed}; a spectrum needs wavelength_nm,{column}."
             )
-    wavelengths, reflectance = table["wavelength_nm"], table["total"]
+    wavelengths, reflectance = table["wavelength_nm"], table[column]
     error = table.get("standard_error")
     if not wavelengths.size or not np.all(np.diff(wavelengths) > 0):
         raise InputError(f"{path} needs one or more wavelengths, in ascending order.")
     outside = reflectance[(reflectance < 0.0) | (reflectance > 1.0)]
     if outside.size:
-        raise InputError(f"{path} has a total of {outside[0]:g}; allowed is 0 to 1.")
+        raise InputError(f"{path} has a {column} of {outside[0]:g}; allowed is 0 to 1.")
     if error is not None and np.any(error < 0.0):
         raise InputError(f"{path} has a standard_error of {error.min():g}; allowed is 0 or more.")
     return NamedSpectrum(name, wavelengths, reflectance, error)
 
 
-WANTED = ("wavelength_nm", "total", "standard_error")
-
-
-def _columns(path: Path) -> dict[str, np.ndarray]:
-    """Those of the columns `WANTED` that a CSV file has, as finite numbers."""
+def _columns(path: Path, wanted: Sequence[str]) -> dict[str, np.ndarray]:
+    """Those of some columns that a CSV file has, as finite numbers."""
     try:
         text = sys.stdin.read() if path == Path("-") else path.read_text(encoding="utf-8-sig")
-        rows = [row for row in csv.reader(text.splitlines()) if row]
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+        rows = [row for row in csv.reader(lines) if row]
         if not rows:
             raise ValueError("it is empty")
-        header, *rows = rows
+        header, *rows = rows if _is_header(rows[0]) else [list(wanted[:2]), *rows]
         if any(len(row) != len(header) for row in rows):
             raise ValueError("not every row has as many values as the header")
         columns = {
             title.strip(): np.array([row[place] for row in rows], dtype=float)
             for place, title in enumerate(header)
-            if title.strip() in WANTED
+            if title.strip() in wanted
         }
     except (OSError, ValueError, csv.Error) as error:
         raise InputError(f"the spectrum in {path} cannot be read: {error}.") from error
     if not all(np.all(np.isfinite(column)) for column in columns.values()):
         raise InputError(f"the spectrum in {path} has values that are not finite numbers.")
     return columns
+
+
+def _is_header(row: Sequence[str]) -> bool:
+    """Whether a file's first row is something else than two numbers."""
+    try:
+        return len([float(each) for each in row]) != 2
+    except ValueError:
+        return True

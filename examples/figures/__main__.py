@@ -17,6 +17,7 @@ from examples.figures import (
     goniometry,
     hyperspectral,
     melanin_forms,
+    people,
     predecessors,
     report,
     sensitivity,
@@ -35,6 +36,7 @@ GROUPS = (
     angular,
     sensitivity,
     compression,
+    people,
 )
 """Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
 
@@ -61,8 +63,8 @@ def figures(asked: argparse.Namespace) -> None:
     require_whole("number of rays", asked.rays, 1, 10**8)
     require_whole("seed", asked.seed, 0, 2**32 - 1)
     groups = chosen(asked.names)
-    people = read_people(asked.people) if asked.people else None
-    effort = Effort(asked.rays, asked.seed, asked.threads, people)
+    measured = read_people(asked.people) if asked.people else None
+    effort = Effort(asked.rays, asked.seed, asked.threads, measured)
     asked.out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     work = {group: group.tasks(effort) for group in groups}

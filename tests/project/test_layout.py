@@ -15,6 +15,7 @@ ALLOWED = {
     "hylios/colour.py": {"numpy", "colour"},
     "hylios/predecessors": {"numpy", "numba", "scipy"},
     "hylios/pictures.py": {"numpy", "matplotlib"},
+    "hylios/fit.py": {"numpy", "scipy"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},

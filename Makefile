@@ -13,7 +13,7 @@ demo: environment
 	@$(BIN)/python -m examples.demo
 
 figures: environment
-	@$(BIN)/python -m examples.figures $(FIGURES)
+	@$(BIN)/python -m examples.figures $(if $(PEOPLE),--people "$(PEOPLE)") $(FIGURES)
 
 lint: environment
 	$(BIN)/ruff check .

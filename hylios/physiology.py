@@ -226,6 +226,15 @@ _RANGES = {
         "[60, 64, 170]",
     ),
     "corneum_urocanic_acid": Physiology(0.0029, 0.0287, "thesis, appendix A", "[211]"),
+    "hypodermis_reflectance": Physiology(
+        40.0,
+        100.0,
+        "above, the thesis (section 4.3), which lets it reflect everything; below, ESTIMATE: fat "
+        "ex vivo at 800 and 900 nm, K = 2 mu_a and S = 3/4 mu_s' of Kubelka and Munk, 59 % by both "
+        "Bashkatov et al. (J Innov Opt Health Sci 4:9, 2011) and Simpson et al. (Phys Med Biol "
+        "43:2465, 1998), 44 % by the latter at 633 nm",
+        "[208]",
+    ),
     "skin_dna": Physiology(
         0.1,
         10.0,

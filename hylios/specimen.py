@@ -84,6 +84,7 @@ class Specimen:
     reticular_lipids: float = _fixed(17.33, "%", 0.0, 100.0, "volume in reticular dermis")
     corneum_keratin: float = _fixed(65.0, "%", 0.0, 100.0, "volume in stratum corneum")
     corneum_urocanic_acid: float = _fixed(0.01, "mol/L", 0.0, 1.0, "in stratum corneum")
+    hypodermis_reflectance: float = _fixed(100.0, "%", 0.0, 100.0, "of what reaches it")
     skin_dna: float = _fixed(0.185, "mg/mL", 0.0, 100.0, "in the epidermis")
 
     def __post_init__(self):

@@ -10,12 +10,32 @@ from types import ModuleType
 from tqdm import tqdm
 
 import hylios
-from examples.figures import absorbers, compression, melanin_forms, report, sensitivity
+from examples.figures import (
+    absorbers,
+    angular,
+    compression,
+    goniometry,
+    hyperspectral,
+    melanin_forms,
+    predecessors,
+    report,
+    sensitivity,
+)
 from examples.figures.light import Effort, Task
+from examples.figures.measured_people import read_people
 from hylios.errors import InputError, require_whole
 from hylios.shell import run
 
-GROUPS = (absorbers, melanin_forms, sensitivity, compression)
+GROUPS = (
+    absorbers,
+    melanin_forms,
+    predecessors,
+    goniometry,
+    hyperspectral,
+    angular,
+    sensitivity,
+    compression,
+)
 """Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
 
 
@@ -29,6 +49,9 @@ def main() -> int:
     parser.add_argument("--rays", type=int, default=Effort.rays, help="per wavelength")
     parser.add_argument("--seed", type=int, default=Effort.seed)
     parser.add_argument("--threads", type=int, help="default: all cores")
+    parser.add_argument(
+        "--people", type=Path, help="measured skin to draw beside ours: wavelength_nm,s1,..."
+    )
     parser.add_argument("--out", type=Path, default=Path("out/figures"))
     return run(figures, parser.parse_args())
 
@@ -38,7 +61,8 @@ def figures(asked: argparse.Namespace) -> None:
     require_whole("number of rays", asked.rays, 1, 10**8)
     require_whole("seed", asked.seed, 0, 2**32 - 1)
     groups = chosen(asked.names)
-    effort = Effort(asked.rays, asked.seed, asked.threads)
+    people = read_people(asked.people) if asked.people else None
+    effort = Effort(asked.rays, asked.seed, asked.threads, people)
     asked.out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     work = {group: group.tasks(effort) for group in groups}
@@ -87,8 +111,12 @@ def computed(
     """The results of all tasks by group and name, with a bar that shows the time left."""
     total = sum(task.size for tasks in work.values() for task in tasks.values())
     with tqdm(total=total, unit="wavelength", unit_scale=True, file=sys.stderr) as bar:
+
+        def tick(size: float) -> None:
+            bar.update(min(size, total - bar.n))  # no rounding beyond the end
+
         return {
-            group: {name: task.work(bar.update) for name, task in tasks.items()}
+            group: {name: task.work(tick) for name, task in tasks.items()}
             for group, tasks in work.items()
         }
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from examples.figures.measured_people import People
 from hylios.adding import solve
 from hylios.specimen import Specimen
 from hylios.tissue import Stack, stack
@@ -29,11 +30,15 @@ Tick = Callable[[float], object]
 
 @dataclass(frozen=True)
 class Effort:
-    """How many rays per wavelength, from which seed, on how many threads (all cores if None)."""
+    """How many rays per wavelength, from which seed, on how many threads (all cores if None).
+
+    And beside which measured people, if any.
+    """
 
     rays: int = THESIS_RAYS
     seed: int = 1
     threads: int | None = None
+    people: People | None = None
 
 
 @dataclass(frozen=True)

@@ -131,7 +131,8 @@ def _added_up(
         for rank in set(shared.ranks[1:-1])
     }
     deepest = len(shared.kinds) - 1
-    below = _floor(shared.floor, *cosines[shared.ranks[deepest + 1]], indices[:, -2:])
+    share = np.array([each.floor_reflectance for each in stacks])
+    below = _floor(shared.floor, *cosines[shared.ranks[deepest + 1]], indices[:, -2:], share)
     for number in range(deepest, -1, -1):
         rank, rank_above = shared.ranks[number + 1], shared.ranks[number]
         below = _through_layer(number, stacks, shared.kinds[number], parts, *cosines[rank], below)
@@ -143,8 +144,13 @@ def _added_up(
     return _through_surface(parts, below)
 
 
-def _floor(kind: str, cosine: np.ndarray, weight: np.ndarray, indices: np.ndarray) -> Below:
-    """At the lower face of the last layer; `indices` (S, 2) are those of its two sides."""
+def _floor(
+    kind: str, cosine: np.ndarray, weight: np.ndarray, indices: np.ndarray, share: np.ndarray
+) -> Below:
+    """At the lower face of the last layer; `indices` (S, 2) are those of its two sides.
+
+    A diffuse floor reflects `share` (S,) of what meets it.
+    """
     if kind == "open":
         reflectance, _ = fresnel(cosine, indices[:, :1], indices[:, 1:])
         return Below(reflectance[:, :, None] * np.eye(cosine.shape[1]), 1.0 - reflectance)
@@ -157,7 +163,8 @@ def _floor(kind: str, cosine: np.ndarray, weight: np.ndarray, indices: np.ndarra
         across = sine[:, :, None] * sine[:, None, :]
         widest = np.arccos(np.clip(-along / np.maximum(across, 1e-300), -1.0, 1.0))
         spread = (along * widest + across * np.sin(widest)) * weight[:, None, :]
-    return Below(spread / spread.sum(axis=2, keepdims=True), np.zeros(cosine.shape))
+    returned = share[:, None, None] * spread / spread.sum(axis=2, keepdims=True)
+    return Below(returned, np.broadcast_to(1.0 - share[:, None], cosine.shape))
 
 
 def _through_layer(
@@ -180,7 +187,8 @@ def _through_layer(
     if "melanosomes" not in kinds:
         absorption = absorption + rate * (1.0 - survival)
     if not kinds:
-        passed = np.exp(-(absorption * thickness)[:, None] / cosine)
+        depth = np.multiply(absorption, thickness)
+        passed = np.exp(-depth[:, None] / cosine)
         returned = passed[:, :, None] * below.returned * passed[:, None, :]
         return Below(returned, passed * below.lost)
     if is_medium(kinds):

@@ -140,7 +140,8 @@ def consistent(values, most_melanin):
 
 def layer_numbers(specimen, wavelength):
     layers = stack(specimen, wavelength, known=figures()).layers
-    return np.array([list(asdict(layer).values()) for layer in layers])
+    given = [{**asdict(layer), "longest_path": 0.0} for layer in layers]  # infinite until tabulated
+    return np.array([list(each.values()) for each in given])
 
 
 PHYSIOLOGICAL = box({name: (known.low, known.high) for name, known in PHYSIOLOGY.items()})

@@ -70,6 +70,10 @@ TABLE_6_2 = {
 }
 
 
+OWN = {"hypodermis_reflectance"}
+"""Of this project: 100 % in section 4.3."""
+
+
 @pytest.mark.parametrize("line", TABLE_6_1.split("\n")[1:-1])
 def test_table_6_1(line):
     name, *printed = line.split()
@@ -80,7 +84,9 @@ def test_table_6_1(line):
 @pytest.mark.parametrize("name", list(SPECIMENS))
 def test_table_6_2(name):
     assert {each: getattr(SPECIMENS[name], each) for each in TABLE_6_2} == TABLE_6_2
-    assert len(parameters()) == len(TABLE_6_2) + len(TABLE_6_1.split("\n")[1:-1])
+    printed = {line.split()[0] for line in TABLE_6_1.split("\n")[1:-1]}
+    assert {each.name for each in parameters()} - {*TABLE_6_2, *printed} == OWN
+    assert SPECIMENS[name].hypodermis_reflectance == 100.0
 
 
 def test_arrangement_of_melanosomes():

@@ -10,6 +10,8 @@ import numpy as np
 from examples.figures.drawing import COLOURS, plot, reflectance_axes, sheet, swatch
 from examples.figures.light import RANGE, THESIS_RAYS, Curve, Effort, Task, noise_free, noisy
 from examples.figures.report import Row, claim, with_noise
+from hylios.colour import difference
+from hylios.colour import swatch as visible_colour
 from hylios.pictures import write_figure
 from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
@@ -65,6 +67,13 @@ CASES = (
     Case("amelanotic", 3, "D.4", "D.7", (0.0209, 0.0172, 0.0140), (0.0018, 0.0026, 0.0013)),
     Case("all", 4, "D.5", "D.8", (0.0127, 0.0105, 0.0087), (0.0038, 0.0031, 0.0010)),
 )
+
+
+SWATCHES = (
+    ("D.3", CASES[0], (("PCA", 1), ("PCA", 2))),
+    ("D.9", CASES[2], (("PCA", 4), ("PPCA", 4))),
+)
+"""Figures of swatches: of which case, and by which methods and numbers of components."""
 
 
 def database() -> dict[str, Specimen]:
@@ -187,12 +196,8 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
                 )
                 for name, *each in zip(PIECES, printed, found, as_noisy, strict=True)
             ]
-    draw_swatches(
-        spectra, CASES[0], (("PCA", 1), ("PCA", 2)), folder / "D.3.png", "D.3  Melanotic subset"
-    )
-    draw_swatches(
-        spectra, CASES[2], (("PCA", 4), ("PPCA", 4)), folder / "D.9.png", "D.9  All specimens"
-    )
+    for number, case, ways in SWATCHES:
+        rows.append(draw_swatches(spectra, number, case, ways, folder))
     noise = noise_levels(spectra)
     draw_table(spectra, printed_noise, noise, folder / "table D.1.png")
     return [*table_rows(spectra, printed_noise), *rows, *noise_rows(spectra, noise)]
@@ -277,12 +282,15 @@ def exact(reflectance: np.ndarray) -> Curve:
 
 def draw_swatches(
     spectra: np.ndarray,
+    number: str,
     case: Case,
-    ways: tuple[tuple[str, int], ...],
-    path: Path,
-    title: str,
-) -> None:
-    """Figures D.3 and D.9: reconstructions and the original, in UV, visible and IR."""
+    ways: tuple[tuple[str, int], tuple[str, int]],
+    folder: Path,
+) -> Row:
+    """Figures D.3 and D.9: reconstructions and the original, in UV, visible and IR.
+
+    Returns how far the visible swatches are from the original's.
+    """
     part, row, specimen = worst(spectra, case)
     shown = {
         f"{method}, {count}": exact(METHODS[method](part, count)[row]) for method, count in ways
@@ -292,8 +300,20 @@ def draw_swatches(
     for line, (name, curve) in zip(axes, shown.items(), strict=True):
         for place, domain in zip(line, ("UV", "visible", "IR"), strict=True):
             swatch(place, curve, domain, f"{domain}: {name}")
-    figure.suptitle(f"{title}, N{specimen}; UV and IR in pseudo colour")
-    write_figure(figure, path)
+    figure.suptitle(f"{number}  Worst of {case.subset}, N{specimen}; UV and IR in pseudo colour")
+    write_figure(figure, folder / f"{number}.png")
+    first, second, original = (
+        visible_colour(curve.wavelengths, curve.reflectance, "visible") for curve in shown.values()
+    )
+    apart = [float(difference(each, original)) for each in (first, second)]
+    names = " and ".join(list(shown)[:2])
+    return claim(
+        number,
+        f"CIEDE2000 of the visible swatches of {names} from the modelled",
+        "the second is closer",
+        f"{apart[0]:.2f}, {apart[1]:.2f}",
+        apart[1] < apart[0],
+    )
 
 
 def noise_levels(spectra: np.ndarray) -> dict[str, list[float]]:

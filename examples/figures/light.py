@@ -1,6 +1,6 @@
 """Reflectance curves for the figures, without noise or with as many rays as were asked for."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -90,14 +90,19 @@ def exact(stacks: Sequence[Stack], angle: float) -> np.ndarray:
     return solve([with_survival(each) for each in stacks], angle).total
 
 
-def noise_free(specimen: Specimen, wavelengths: Iterable[float], angle: float) -> Task:
-    """The task of a curve without noise."""
+def noise_free(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    angle: float,
+    chosen: Mapping[str, str] | None = None,
+) -> Task:
+    """The task of a curve without noise, with other readings of the thesis where chosen."""
     asked = np.asarray(wavelengths, dtype=float)
 
     def work(tick: Tick) -> Curve:
         found = []
         for part in np.split(asked, range(BATCH, asked.size, BATCH)):
-            found.append(exact([stack(specimen, each) for each in part], angle))
+            found.append(exact([stack(specimen, each, chosen=chosen) for each in part], angle))
             tick(part.size)
         return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
 

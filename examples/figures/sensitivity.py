@@ -26,7 +26,7 @@ from examples.figures.light import (
     noisy,
     walked,
 )
-from examples.figures.report import Row, agreement, relative
+from examples.figures.report import Row, agreement, claim, relative
 from hylios.pictures import write_figure
 from hylios.specimen import SPECIMENS, Specimen, with_values
 
@@ -128,7 +128,14 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
         for name in MATERIALS
     ]
     base = agreement("table 6.3", "S3", results["all"], results["all walked"])
-    return [*table_rows(results), *results["readings"], base, *checks]
+    return [
+        *table_rows(results),
+        *results["readings"],
+        *swatch_rows(results),
+        omega_row(results),
+        base,
+        *checks,
+    ]
 
 
 def draw_pair(
@@ -213,3 +220,38 @@ def table_rows(results: Mapping[str, Curve]) -> list[Row]:
                 )
             )
     return rows
+
+
+def swatch_rows(results: Mapping[str, Curve]) -> list[Row]:
+    """Figures 6.14, 6.16, 6.18: each removal lightens its domain."""
+    rows = []
+    for _, number, materials in PAIRS:
+        domain = MATERIALS[materials[0]].domain
+        means = {
+            name: results[name].within(*DOMAINS[domain]).mean() for name in ("all", *materials)
+        }
+        rows.append(
+            claim(
+                number,
+                f"mean reflectance, {domain}: S3, no {materials[0]}, no {materials[1]}",
+                "lighter without either",
+                ", ".join(f"{value:.4f}" for value in means.values()),
+                all(means[name] > means["all"] for name in materials),
+            )
+        )
+    return rows
+
+
+def omega_row(results: Mapping[str, Curve]) -> Row:
+    """Figure 6.13: the two valleys of oxyhemoglobin go with the blood."""
+    valleys = {
+        name: int(np.sum(np.diff(np.sign(np.diff(results[name].within(500.0, 600.0)))) > 0))
+        for name in ("all", "blood")
+    }
+    return claim(
+        "6.13",
+        "valleys from 500 to 600 nm: S3, no blood",
+        "an omega, which vanishes",
+        f"{valleys['all']}, {valleys['blood']}",
+        valleys == {"all": 2, "blood": 0},
+    )

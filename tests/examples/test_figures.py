@@ -166,7 +166,8 @@ def test_what_cannot_be_drawn_is_refused_in_a_sentence(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_group_with_few_rays_leaves_pictures_and_report(tmp_path):
+def test_a_group_with_few_rays_leaves_pictures_and_rows(tmp_path, monkeypatch):
+    monkeypatch.setattr(melanin_forms, "WAVELENGTHS", melanin_forms.CHECKED)
     effort = Effort(rays=50)
     work = {absorbers: absorbers.tasks(effort), melanin_forms: melanin_forms.tasks(effort)}
     results = program.computed(work)
@@ -175,3 +176,26 @@ def test_a_group_with_few_rays_leaves_pictures_and_report(tmp_path):
     assert made == {f"{name}.png" for group in work for name in group.FIGURES}
     assert all((tmp_path / name).read_bytes().startswith(b"\x89PNG") for name in made)
     assert {row.where for row in rows} >= {"A.1", "5.3", "C.1", "C.2", "C.3", "C.4", "C.5"}
+
+
+@pytest.mark.slow
+def test_compression_and_sensitivity_draw_all_their_figures(tmp_path):
+    """From made-up spectra of four components: eight give them back, PPCA beats PCA."""
+    random = np.random.default_rng(9)
+    shapes = np.abs(np.cos(np.outer(np.arange(4.0), np.linspace(0.0, 3.0, RANGE.size))))
+    spectra = {
+        name: Curve(RANGE, 0.2 * random.random(4) @ shapes, np.zeros(RANGE.size), 0)
+        for name in compression.database()
+    }
+    rows = compression.draw(spectra, tmp_path)
+    exact = [row for row in rows if "8 components, maximum RMSE" in row.what]
+    assert len(exact) == 3 and all(row.ours.startswith("0.0000 (-100%)") for row in exact)
+    removed = {
+        name: flat(0.2 if name == "all" else 0.4) for name in ("all", *sensitivity.MATERIALS)
+    }
+    checks = {f"{name} walked": flat(0.4, rays=100) for name in removed}
+    rows = sensitivity.draw({**removed, **checks, "readings": []}, tmp_path)
+    lighter = [row for row in rows if row.printed == "lighter without either"]
+    assert len(lighter) == 3 and all(row.met for row in lighter)
+    made = {path.name for path in tmp_path.iterdir()}
+    assert made == {f"{name}.png" for name in (*compression.FIGURES, *sensitivity.FIGURES)}

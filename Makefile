@@ -3,6 +3,8 @@
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
+# The matrices here are small: threads of BLAS would cost them ten times their own time.
+export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: demo figures test test-all lint bench package environment
 

@@ -17,6 +17,7 @@ from types import MappingProxyType
 
 import numpy as np
 from scipy.optimize import least_squares
+from threadpoolctl import threadpool_limits
 
 from hylios.adding import solve
 from hylios.errors import InputError
@@ -224,15 +225,16 @@ def fit(
         moved = misfit(np.vstack([unknowns, unknowns + np.diag(inwards)]))
         return ((moved[1:] - moved[0]) / inwards[:, None]).T
 
-    found = least_squares(
-        lambda unknowns: misfit(unknowns[None])[0],
-        np.clip(0.0, np.log(low) + MARGIN * room, np.log(high) - MARGIN * room),
-        jac=slopes,  # type: ignore[arg-type]  # scipy's stubs know only its names of methods
-        bounds=(np.log(low), np.log(high)),
-        xtol=TOLERANCE,
-        ftol=TOLERANCE,
-        max_nfev=MOST_STEPS,
-    )
+    with threadpool_limits(1):  # threads cost small matrices ten times their own time
+        found = least_squares(
+            lambda unknowns: misfit(unknowns[None])[0],
+            np.clip(0.0, np.log(low) + MARGIN * room, np.log(high) - MARGIN * room),
+            jac=slopes,  # type: ignore[arg-type]  # scipy's stubs know only its names of methods
+            bounds=(np.log(low), np.log(high)),
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            max_nfev=MOST_STEPS,
+        )
     covariance = np.linalg.inv(found.jac.T @ found.jac)
     spread = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(spread, spread)

@@ -37,7 +37,7 @@ COLUMNS = (
     "rayleigh",
     "scattering",
     "anisotropy",
-    "survival",
+    "melanosome_depth",
     "longest_path",
 )
 (
@@ -53,7 +53,7 @@ COLUMNS = (
     RAYLEIGH,
     SCATTERING,
     ANISOTROPY,
-    SURVIVAL,
+    MELANOSOME_DEPTH,
     LONGEST_PATH,
 ) = range(len(COLUMNS))
 

@@ -15,7 +15,7 @@ ALLOWED = {
     "hylios/colour.py": {"numpy", "colour"},
     "hylios/predecessors": {"numpy", "numba", "scipy"},
     "hylios/pictures.py": {"numpy", "matplotlib"},
-    "hylios/fit.py": {"numpy", "scipy"},
+    "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
@@ -23,7 +23,7 @@ ALLOWED = {
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
 
-LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors")
+LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors", "hylios/fit.py")
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
 NUMPY_ONLY = ("tanning", "table", "errors")

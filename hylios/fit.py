@@ -204,6 +204,8 @@ def fit(
         If a name is unknown, named twice, or its parameters are all 0 at the start.
     """
     names = tuple(free)
+    if not names:
+        raise InputError("nothing is free; a fit needs at least one parameter or group to change.")
     low, high = np.array([_bounds(start, name) for name in names]).T
     if len({field for name in names for field in _fields(name)}) < sum(
         len(_fields(name)) for name in names

@@ -8,8 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import trapezoid
 from scipy.special import expn
 
@@ -18,14 +16,10 @@ from hylios.specimen import SPECIMENS
 from hylios.tissue import Layer, Stack, stack
 from hylios.transport import interfaces
 from hylios.transport.simulate import spectrum, trace
-from hylios.transport.survival import path_lengths, survival, with_survival
+from hylios.transport.survival import path_lengths, survival
 from hylios.transport.walk import (
-    ABSORBED,
-    ABSORBED_IN_MELANOSOME,
-    LOST,
     SUBSURFACE,
     SURFACE,
-    TRANSMITTED,
 )
 
 VISIBLE = np.array([400.0, 460.0, 520.0, 580.0, 640.0, 700.0])

@@ -11,43 +11,23 @@ from pathlib import Path
 import numpy as np
 
 import hylios
-from examples.simplifications.skins import random_skins, unscattered
+from examples.simplifications.light import GRID, metrics, reflectances
+from examples.simplifications.skins import random_skins
+from examples.simplifications.variants import whole
 from hylios import colour
 from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Colours, Quadrature, choose
-
-GRID = np.arange(360.0, 781.0, 5.0)
-"""Where the eye sees, in nm; the figures of what absorbs in skin are no finer."""
 
 FIRST, LAST = 400.0, 700.0
 """Of the wavelengths to choose from: beyond, the eye sees little and the figures are guesses."""
 
 SKINS = 300
-STEP = 1e-4
-
-
-def metrics(linear: np.ndarray) -> np.ndarray:
-    """Symmetric matrices (..., 3, 3) of colours (..., 3): a small error e has the squared
-    CIEDE2000 e @ matrix @ e. All in linear Rec.709.
-    """
-
-    def squared(direction: np.ndarray) -> np.ndarray:
-        return (colour.difference(linear, linear + STEP * direction) / STEP) ** 2
-
-    axes = np.eye(3)
-    along = [squared(axis) for axis in axes]
-    made = np.empty((*linear.shape, 3))
-    for i in range(3):
-        for j in range(3):
-            both = along[i] if i == j else 0.5 * (squared(axes[i] + axes[j]) - along[i] - along[j])
-            made[..., i, j] = both
-    return made
 
 
 def skin_colours(count: int = SKINS, seed: int = 1) -> Colours:
     """Random skins, none of them among those that anything is measured on."""
     weights = colour.rec709_weights(GRID)
-    reflectances = np.array([unscattered(each, GRID) for each in random_skins(count, seed)])
-    return Colours(GRID, weights, reflectances, metrics(reflectances @ weights.T))
+    light = reflectances(random_skins(count, seed), GRID, whole)
+    return Colours(GRID, weights, light, metrics(light @ weights.T))
 
 
 def write(quadratures: Sequence[Quadrature], path: Path) -> None:

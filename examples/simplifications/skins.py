@@ -6,18 +6,11 @@ import numpy as np
 
 from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
 from hylios.tanning import Exposures, simulate
-from hylios.tissue import stack
 from lut_builder.states import skin
 
 DOSE = 30.0  # SED, on day 0
 DAYS = (0, 2, 10, 30)
 """Of a tan; day 0 is the skin before it, with melanin as the tanning model spreads it (5.16)."""
-
-FRESNEL = 0.046
-"""Reflectance of skin's surface for light straight on (index 1.55)."""
-
-TURNED_BACK = 0.6
-"""Share of diffuse light that skin's surface turns back inside."""
 
 
 def tan(specimen: Specimen) -> list[Specimen]:
@@ -76,22 +69,3 @@ def random_skins(count: int, seed: int) -> list[Specimen]:
         )
 
     return [drawn() for _ in range(count)]
-
-
-def unscattered(specimen: Specimen, wavelengths: np.ndarray) -> np.ndarray:
-    """Reflectance (W,) of skin that absorbs but does not scatter, over its white floor.
-
-    A closed form with spectra like skin's: light straight down through all absorbers, diffuse
-    up again, and turned back by the surface as often as it comes.
-    """
-    contents = [0.01 * getattr(specimen, f"{layer}_melanosomes") for layer in EPIDERMIS]
-    depths = []
-    for wavelength in wavelengths:
-        layers = stack(specimen, float(wavelength)).layers
-        depth = sum(each.thickness * each.absorption for each in layers)
-        for each, content in zip(layers[1:4], contents, strict=True):
-            depth += each.thickness * content * each.melanin_absorption
-        depths.append(depth)
-    down, up = np.exp(-np.array(depths)), np.exp(-1.7 * np.array(depths))
-    inside = down * up * (1.0 - TURNED_BACK) / (1.0 - TURNED_BACK * up**2)
-    return FRESNEL + (1.0 - FRESNEL) * inside

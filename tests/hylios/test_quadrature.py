@@ -5,11 +5,13 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from examples.simplifications.quadrature import GRID, metrics, skin_colours
-from examples.simplifications.skins import measured, unscattered
+from examples.simplifications.light import GRID, metrics, reflectances
+from examples.simplifications.quadrature import skin_colours
+from examples.simplifications.variants import whole
 from hylios import colour
 from hylios.errors import InputError
 from hylios.quadrature import FEWEST, MOST, Colours, choose, skin_quadrature
+from hylios.specimen import SPECIMENS
 
 COUNTS = range(FEWEST, MOST + 1)
 
@@ -17,7 +19,7 @@ COUNTS = range(FEWEST, MOST + 1)
 @pytest.fixture(scope="module")
 def held_out():
     """Spectra (4, N) of S1 to S4, which no quadrature was chosen by, and their colours."""
-    spectra = np.array([unscattered(each, GRID) for each in measured()[0]])
+    spectra = reflectances(list(SPECIMENS.values()), GRID, whole)
     return spectra, colour.linear_rec709(GRID, spectra)
 
 

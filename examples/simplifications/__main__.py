@@ -1,0 +1,128 @@
+"""Measures what each simplification costs and buys: `python -m examples.simplifications`.
+
+Writes docs/simplifications.md. Minutes of work on one core.
+"""
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from examples.simplifications import measures, report, variants
+from examples.simplifications.edge import Edge, tan_line
+from examples.simplifications.light import stacks, walk_seconds
+from examples.simplifications.measures import Case, Effort
+from hylios.quadrature import skin_quadrature
+from hylios.shell import run
+from hylios.specimen import SPECIMENS
+from hylios.transport.simulate import Spectrum, spectrum
+from lut_builder.build import BANDS_NM
+
+DOCUMENT = Path("docs/simplifications.md")
+
+CHOICES = [
+    *((f"{measures.EVEN[::step].size} wavelengths, every {5 * step} nm", measures.even(step))
+      for step in (1, 2, 4, 5, 10)),
+    *((f"{count} wavelengths, chosen", skin_quadrature(count)) for count in (16, 12, 8, 7, 6, 5, 4)),
+]  # fmt: skip
+
+CASES = [
+    Case("melanosomes as plain absorber", variants.plain_absorber),
+    Case("no Rayleigh scattering", variants.no_rayleigh),
+    Case("one epidermis", variants.one_epidermis),
+    Case("three epidermal layers, melanin spread evenly", variants.spread_evenly),
+    Case("no dysfunctional haemoglobins, no carotene", variants.no_rare_pigments),
+    Case("all of these", variants.all_of_it),
+    Case("light at 0 instead of 8 degrees", variants.whole, angle=0.0),
+]
+
+RAY_COUNTS = (1_000_000, 100_000, 10_000, 1_000)
+
+LINE_RAYS, PROFILE_RAYS = 20_000, 10_000
+"""Per wavelength: for a tan line, and for the widths of profiles."""
+
+LINE_WAVELENGTHS = 8
+
+
+def measure(_: argparse.Namespace) -> None:
+    """Measure and write the document."""
+    started, worked = time.monotonic(), time.process_time()
+    effort = Effort()
+    steps = effort.rounds * (len(CASES) + 2) + len(CASES) + 2 + 2 * len(SPECIMENS) + 2
+    with tqdm(total=steps, desc="simplifications", file=sys.stderr) as bar:
+
+        def told() -> None:
+            bar.update()
+
+        known = measures.truth()
+        walk_seconds(stacks([SPECIMENS["S3"]], measures.COARSE[:1], variants.whole), 1)  # compiles
+        told()
+        found = report.Findings(
+            wavelengths=measures.wavelength_rows(known, CHOICES, effort, told),
+            rays=measures.ray_rows(known, RAY_COUNTS),
+            model=measures.variant_rows(known, CASES, effort, told),
+            lines=tan_lines(told),
+            profiles=(profiles := profiles_of_specimens(told)),
+            walked=measures.walked_difference(known, np.array([each.total for each in profiles])),
+            walked_rays=PROFILE_RAYS,
+            bands=bands(effort),
+            render=render(),
+            seconds=time.process_time() - worked,
+        )
+        told()
+    write(report.markdown(found), DOCUMENT)
+    print(f"wrote {DOCUMENT} in {time.monotonic() - started:.0f} s")
+
+
+def tan_lines(told: measures.Progress) -> list[Edge]:
+    """A tan line on each of S1 to S4."""
+    made = []
+    for each in SPECIMENS.values():
+        made.append(tan_line(each, skin_quadrature(LINE_WAVELENGTHS), LINE_RAYS))
+        told()
+    return made
+
+
+def profiles_of_specimens(told: measures.Progress) -> list[Spectrum]:
+    """S1 to S4 walked at the full model's wavelengths, with exit distances."""
+    made = []
+    for each in SPECIMENS.values():
+        made.append(spectrum(each, measures.EVEN, rays=PROFILE_RAYS))
+        told()
+    return made
+
+
+def bands(effort: Effort) -> np.ndarray:
+    """Time of a ray at each of the tables' bands, relative to the mean over the visible."""
+    skins = list(SPECIMENS.values())
+    wavelengths = np.concatenate([measures.COARSE, BANDS_NM])
+    layers = stacks(skins, wavelengths, variants.whole)
+    rounds = [walk_seconds(layers, effort.rays, each) for each in range(effort.rounds)]
+    times = np.median(rounds, axis=0).reshape(len(skins), -1)
+    visible = times[:, : measures.COARSE.size].mean(axis=1, keepdims=True)
+    return (times[:, measures.COARSE.size :] / visible).mean(axis=0)
+
+
+def render() -> float | None:
+    """Relative time of rendering with subsurface; None where Blender is not installed."""
+    try:
+        from examples.simplifications.render import time_with_subsurface
+    except ImportError:
+        return None
+    return time_with_subsurface()
+
+
+def write(text: str, path: Path) -> None:
+    """Write a file beside its place, then move it there."""
+    path.parent.mkdir(exist_ok=True)
+    unfinished = path.with_suffix(".unfinished")
+    unfinished.write_text(text, encoding="utf-8")
+    os.replace(unfinished, path)
+
+
+if __name__ == "__main__":
+    sys.exit(run(measure, argparse.ArgumentParser(description=__doc__).parse_args()))

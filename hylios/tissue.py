@@ -49,6 +49,26 @@ FIGURES = (
 )
 """Spectral figures that a stack is made from."""
 
+PARTS = ("corneum", *EPIDERMIS, "papillary", "reticular")
+"""Layers of a specimen, from the surface down."""
+
+ABSORBERS = (
+    "water",
+    "lipids",
+    "keratin",
+    "urocanic_acid",
+    "dna",
+    "colloidal_melanin",
+    "oxyhemoglobin",
+    "deoxyhemoglobin",
+    "carboxyhemoglobin",
+    "methemoglobin",
+    "sulfhemoglobin",
+    "bilirubin",
+    "beta_carotene",
+)
+"""What absorbs in the layers, melanosomes aside."""
+
 
 @dataclass(frozen=True)
 class Reading:
@@ -126,8 +146,9 @@ class Layer:
     and `semi_major` the melanosomes' half axes, `complex_radius` that of a complex or 0 where
     melanosomes are single, `melanin_absorption` the coefficient inside a melanosome. `rayleigh`
     and `scattering` (Henyey-Greenstein with mean cosine `anisotropy`) are scattering coefficients.
-    `survival` is the probability of leaving one melanosome unabsorbed where that is tabulated;
-    negative, the default, has every path inside a melanosome walked.
+    `survival` is the probability of leaving one melanosome unabsorbed and `longest_path` the
+    longest path inside that is to be expected; both follow from the rest and are filled in by
+    `hylios.transport.survival.with_survival`.
     """
 
     thickness: float
@@ -142,6 +163,7 @@ class Layer:
     scattering: float = 0.0
     anisotropy: float = 0.0
     survival: float = -1.0
+    longest_path: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -188,27 +210,30 @@ def stack(
     """
     known = known or figures()
     decided = readings(chosen)
-    dermis = {
-        part: _dermis_absorption(specimen, part, wavelength, known)
-        for part in ("papillary", "reticular")
+    absorption = {
+        part: float(sum(each.values()))
+        for part, each in absorbers(specimen, wavelength, known=known, chosen=chosen).items()
     }
     layers = (
         Layer(
             thickness=specimen.corneum_thickness,
             refractive_index=refractive_index(specimen, "corneum", wavelength, known),
-            absorption=_corneum_absorption(specimen, wavelength, known),
+            absorption=absorption["corneum"],
         ),
-        *(_epidermal_layer(specimen, part, wavelength, known, decided) for part in EPIDERMIS),
+        *(
+            _epidermal_layer(specimen, part, wavelength, known, decided, absorption[part])
+            for part in EPIDERMIS
+        ),
         Layer(
             thickness=specimen.papillary_thickness,
             refractive_index=refractive_index(specimen, "papillary", wavelength, known),
-            absorption=dermis["papillary"],
+            absorption=absorption["papillary"],
             rayleigh=rayleigh_coefficient(wavelength, decided["rayleigh_denominator"]),
         ),
         Layer(
             thickness=specimen.reticular_thickness,
             refractive_index=refractive_index(specimen, "reticular", wavelength, known),
-            absorption=dermis["reticular"],
+            absorption=absorption["reticular"],
         ),
     )
     return Stack(
@@ -219,6 +244,45 @@ def stack(
         scattering_angle=scattering_angle(wavelength),
         readings=decided,
     )
+
+
+def absorbers(
+    specimen: Specimen,
+    wavelength: float,
+    *,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> dict[str, dict[str, float]]:
+    """What absorbs in each layer at one wavelength in nm, melanosomes aside.
+
+    Returns
+    -------
+    dict
+        For each of `PARTS`, the coefficient in 1/cm of those of `ABSORBERS` that it holds. A
+        layer of a `stack` absorbs with their sum.
+
+    Raises
+    ------
+    InputError
+        If the wavelength lies outside the figures or a reading is unknown.
+    """
+    known = known or figures()
+    decided = readings(chosen)
+    own = {
+        "corneum": _corneum_absorbers(specimen, wavelength, known),
+        **{
+            part: _epidermal_absorbers(specimen, part, wavelength, known, decided)
+            for part in EPIDERMIS
+        },
+        **{
+            part: _dermal_absorbers(specimen, part, wavelength, known)
+            for part in ("papillary", "reticular")
+        },
+    }
+    return {
+        part: {**_water_and_lipids(specimen, part, wavelength, known), **own[part]}
+        for part in PARTS
+    }
 
 
 def refractive_index(specimen: Specimen, part: str, wavelength: float, known: Figures) -> float:
@@ -275,13 +339,15 @@ def encounter_coefficient(
     return float(surface_to_volume * volume_fraction / 4.0)
 
 
-def _molar(known: Figures, name: str, wavelength: float, concentration: float, weight: float):
+def _molar(
+    known: Figures, name: str, wavelength: float, concentration: float, weight: float
+) -> float:
     """Absorption coefficient from a decadic molar extinction (A.2); mg/mL and g/mol."""
-    return known[name].at(wavelength) * np.log(10.0) * concentration / weight
+    return float(known[name].at(wavelength) * np.log(10.0) * concentration / weight)
 
 
-def blood_coefficient(specimen: Specimen, wavelength: float, known: Figures) -> float:
-    """Absorption coefficient of whole blood: the bracket of 4.2.
+def blood_absorbers(specimen: Specimen, wavelength: float, known: Figures) -> dict[str, float]:
+    """Absorption coefficients in 1/cm of what is in whole blood: the bracket of 4.2.
 
     The thesis prints the volume fraction of sulfhemoglobin beside the coefficient of
     carboxyhemoglobin; each absorber has its own here.
@@ -294,72 +360,82 @@ def blood_coefficient(specimen: Specimen, wavelength: float, known: Figures) -> 
         "methemoglobin": specimen.methemoglobin,
         "sulfhemoglobin": specimen.sulfhemoglobin,
     }
-    total = sum(
-        _molar(known, name, wavelength, concentration, HEMOGLOBIN_WEIGHT)
-        for name, concentration in hemoglobins.items()
-    )
-    total += _molar(
-        known, "beta_carotene", wavelength, specimen.blood_beta_carotene, BETA_CAROTENE_WEIGHT
-    )
-    total += _molar(known, "bilirubin", wavelength, specimen.blood_bilirubin, BILIRUBIN_WEIGHT)
-    return float(total)
+    held = {name: (content, HEMOGLOBIN_WEIGHT) for name, content in hemoglobins.items()}
+    held["beta_carotene"] = (specimen.blood_beta_carotene, BETA_CAROTENE_WEIGHT)
+    held["bilirubin"] = (specimen.blood_bilirubin, BILIRUBIN_WEIGHT)
+    return {name: _molar(known, name, wavelength, *each) for name, each in held.items()}
 
 
-def _water_and_lipids(specimen: Specimen, part: str, wavelength: float, known: Figures) -> float:
-    water = known["water"].at(wavelength) * getattr(specimen, f"{part}_water")
-    lipids = known["lipids"].at(wavelength) * getattr(specimen, f"{part}_lipids")
-    return float(0.01 * (water + lipids))
+def blood_coefficient(specimen: Specimen, wavelength: float, known: Figures) -> float:
+    """Absorption coefficient of whole blood in 1/cm: the sum of `blood_absorbers`."""
+    return sum(blood_absorbers(specimen, wavelength, known).values())
 
 
-def _corneum_absorption(specimen: Specimen, wavelength: float, known: Figures) -> float:
-    """Water, lipids, keratin, urocanic acid and beta-carotene.
+def _water_and_lipids(
+    specimen: Specimen, part: str, wavelength: float, known: Figures
+) -> dict[str, float]:
+    tissue = "epidermis" if part in EPIDERMIS else part
+    return {
+        name: float(0.01 * known[name].at(wavelength) * getattr(specimen, f"{tissue}_{name}"))
+        for name in ("water", "lipids")
+    }
+
+
+def _corneum_absorbers(specimen: Specimen, wavelength: float, known: Figures) -> dict[str, float]:
+    """Keratin, urocanic acid and beta-carotene.
 
     Keratin's figure is a coefficient already (the thesis scales its absorptance over 4 um by
     4e4; 4 um is 4e-4 cm, so 2.5e3). Urocanic acid is taken per concentration over 1 cm, where
     A.5 multiplies by what it calls a molar weight.
     """
-    keratin = known["keratin"].at(wavelength) * 0.01 * specimen.corneum_keratin
-    urocanic = known["urocanic_acid"].at(wavelength) * np.log(10.0) * specimen.corneum_urocanic_acid
-    carotene = _molar(
-        known, "beta_carotene", wavelength, specimen.corneum_beta_carotene, BETA_CAROTENE_WEIGHT
-    )
-    shared = _water_and_lipids(specimen, "corneum", wavelength, known)
-    return float(shared + keratin + urocanic + carotene)
+    acid = known["urocanic_acid"].at(wavelength) * np.log(10.0) * specimen.corneum_urocanic_acid
+    content = specimen.corneum_beta_carotene
+    return {
+        "keratin": float(known["keratin"].at(wavelength) * 0.01 * specimen.corneum_keratin),
+        "urocanic_acid": float(acid),
+        "beta_carotene": _molar(known, "beta_carotene", wavelength, content, BETA_CAROTENE_WEIGHT),
+    }
 
 
-def _dermis_absorption(specimen: Specimen, part: str, wavelength: float, known: Figures) -> float:
-    """Water, lipids and blood (4.2)."""
-    blood = 0.01 * getattr(specimen, f"{part}_blood")
-    shared = _water_and_lipids(specimen, part, wavelength, known)
-    return shared + blood * blood_coefficient(specimen, wavelength, known)
-
-
-def _epidermal_layer(
+def _epidermal_absorbers(
     specimen: Specimen, part: str, wavelength: float, known: Figures, decided: Mapping[str, str]
-) -> Layer:
-    """Water, lipids, beta-carotene, DNA, colloidal melanin, and melanosomes.
+) -> dict[str, float]:
+    """Beta-carotene, DNA and colloidal melanin.
 
     DNA is taken per concentration over 1 cm (its density is the whole skin's, section 3.1
     places it in the epidermis). Colloidal melanin is as concentrated as that inside the
     melanosomes unless the reading says solid.
     """
-    inside = melanin_coefficient(specimen, wavelength, known)
     colloidal = 0.01 * getattr(specimen, f"{part}_colloidal_melanin")
     if decided["colloidal_melanin"] == "solid":
         held = specimen.eumelanin_concentration + specimen.pheomelanin_concentration
         colloidal *= SOLID_MELANIN / held if held > 0 else 0.0
-    absorption = (
-        _water_and_lipids(specimen, "epidermis", wavelength, known)
-        + known["dna"].at(wavelength) * specimen.skin_dna
-        + _molar(
-            known,
-            "beta_carotene",
-            wavelength,
-            specimen.epidermis_beta_carotene,
-            BETA_CAROTENE_WEIGHT,
-        )
-        + colloidal * inside
-    )
+    content = specimen.epidermis_beta_carotene
+    return {
+        "dna": float(known["dna"].at(wavelength) * specimen.skin_dna),
+        "colloidal_melanin": colloidal * melanin_coefficient(specimen, wavelength, known),
+        "beta_carotene": _molar(known, "beta_carotene", wavelength, content, BETA_CAROTENE_WEIGHT),
+    }
+
+
+def _dermal_absorbers(
+    specimen: Specimen, part: str, wavelength: float, known: Figures
+) -> dict[str, float]:
+    """What blood brings (4.2)."""
+    share = 0.01 * getattr(specimen, f"{part}_blood")
+    blood = blood_absorbers(specimen, wavelength, known)
+    return {name: share * each for name, each in blood.items()}
+
+
+def _epidermal_layer(
+    specimen: Specimen,
+    part: str,
+    wavelength: float,
+    known: Figures,
+    decided: Mapping[str, str],
+    absorption: float,
+) -> Layer:
+    """A layer with its melanosomes, single or in complexes."""
     scale = MELANOSOME_SCALE[part] * 1e-4
     semi_minor = 0.5 * scale * specimen.melanosome_minor_axis
     semi_major = 0.5 * scale * specimen.melanosome_major_axis
@@ -380,10 +456,10 @@ def _epidermal_layer(
     return Layer(
         thickness=thickness,
         refractive_index=refractive_index(specimen, "epidermis", wavelength, known),
-        absorption=float(absorption),
+        absorption=absorption,
         encounter=encounter_coefficient(content, semi_minor, semi_major, radius),
         semi_minor=semi_minor,
         semi_major=semi_major,
         complex_radius=radius,
-        melanin_absorption=inside,
+        melanin_absorption=melanin_coefficient(specimen, wavelength, known),
     )

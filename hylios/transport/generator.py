@@ -5,7 +5,8 @@ threads share the work.
 """
 
 import numpy as np
-from numba import njit
+
+from hylios.transport.compiling import part
 
 _DOUBLE = 1.0 / 9007199254740992.0
 
@@ -15,7 +16,7 @@ def stream(*key: int) -> np.ndarray:
     return np.random.SeedSequence(key).generate_state(4, np.uint64)
 
 
-@njit
+@part
 def uniform(state):
     """A random number from [0, 1), advancing the state in place."""
     s0, s1, s2, s3 = state[0], state[1], state[2], state[3]

@@ -5,14 +5,13 @@ Rays and normals are unit vectors with z pointing into the skin.
 
 import math
 
-from numba import njit
-
+from hylios.transport.compiling import part
 from hylios.transport.generator import uniform
-from hylios.transport.sampling import surface_slope_squared
-from hylios.transport.vectors import TWO_PI, added, dot, scaled
+from hylios.transport.sampling import azimuth, surface_slope_squared
+from hylios.transport.vectors import added, dot, scaled
 
 
-@njit
+@part
 def fresnel(cosine, index_from, index_to):
     """Reflectance for unpolarised light and the cosine beyond; (1, 0) in total reflection."""
     ratio = index_from / index_to
@@ -20,12 +19,15 @@ def fresnel(cosine, index_from, index_to):
     if squared >= 1.0:
         return 1.0, 0.0
     beyond = math.sqrt(1.0 - squared)
-    across = (index_from * cosine - index_to * beyond) / (index_from * cosine + index_to * beyond)
-    along = (index_from * beyond - index_to * cosine) / (index_from * beyond + index_to * cosine)
-    return 0.5 * (across * across + along * along), beyond
+    near, far = index_from * cosine, index_to * beyond
+    across, of_across = near - far, near + far
+    near, far = index_from * beyond, index_to * cosine
+    along, of_along = near - far, near + far
+    across, along, both = across * of_along, along * of_across, of_across * of_along
+    return 0.5 * (across * across + along * along) / (both * both), beyond
 
 
-@njit
+@part
 def refracted(ray, normal, cosine, beyond, ratio):
     """The ray beyond an interface (Snell); `normal` faces it, `ratio` is index from / index to."""
     return added(scaled(ray, ratio), ratio * cosine - beyond, normal)
@@ -35,7 +37,7 @@ FLAT = 1e-6
 """Roughness up to which a surface is taken as flat: its normals tilt by about as many radians."""
 
 
-@njit
+@part
 def surface_normal(state, roughness):
     """A normal of the surface, pointing out of the skin (4.8); straight up where it is flat."""
     if roughness <= FLAT:
@@ -43,11 +45,11 @@ def surface_normal(state, roughness):
     slope = surface_slope_squared(state, roughness)
     cosine = 1.0 / math.sqrt(1.0 + slope)
     sine = math.sqrt(slope) * cosine
-    azimuth = TWO_PI * uniform(state)
-    return sine * math.cos(azimuth), sine * math.sin(azimuth), -cosine
+    turn = azimuth(state)
+    return sine * turn[0], sine * turn[1], -cosine
 
 
-@njit
+@part
 def meet_surface(state, ray, index_from, index_to, roughness):
     """Reflection or refraction at the surface, from outside (z > 0) or from inside (z < 0).
 
@@ -72,7 +74,7 @@ def meet_surface(state, ray, index_from, index_to, roughness):
                 return True, passed
 
 
-@njit
+@part
 def meet_interface(state, ray, index_from, index_to):
     """Reflection or refraction at a flat interface.
 

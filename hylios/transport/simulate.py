@@ -10,19 +10,16 @@ import numpy as np
 from hylios.errors import InputError, require_range, require_whole
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
-from hylios.tissue import Stack, stack
+from hylios.tissue import ABSORBERS, PARTS, Stack, absorbers, stack
 from hylios.transport.generator import stream
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import (
-    ABSORBED,
-    ABSORBED_IN_MELANOSOME,
-    LOST,
-    SUBSURFACE,
-    SURFACE,
-    TRANSMITTED,
-    kernel_arguments,
-    walk,
+from hylios.transport.kernels import (
+    count_as_printed,
+    count_equivalent,
+    trace_as_printed,
+    trace_equivalent,
 )
+from hylios.transport.survival import with_survival
+from hylios.transport.walk import SUBSURFACE, SURFACE, TRANSMITTED, kernel_arguments
 
 CHUNK = 16384
 """Rays of one stream of random numbers; fixed, so that results do not depend on the threads."""
@@ -31,6 +28,8 @@ MOST_RAYS = 10**10
 
 DISTANCE_EDGES = np.concatenate([[0.0], np.geomspace(1e-3, 100.0, 161)])
 """Edges in mm of the bins in which exit distances are counted; the last bin is open."""
+
+NO_END = "a ray found no end: the stack neither absorbs light nor lets it out"
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,14 @@ class Rays:
         return 10.0 * np.hypot(self.place[:, 0], self.place[:, 1])
 
 
-def trace(layers: Stack, *, rays: int, angle: float = 0.0, key: tuple[int, ...] = (1,)) -> Rays:
+def trace(
+    layers: Stack,
+    *,
+    rays: int,
+    angle: float = 0.0,
+    key: tuple[int, ...] = (1,),
+    as_printed: bool = False,
+) -> Rays:
     """Trace rays through a stack, all at one place and angle of incidence.
 
     Parameters
@@ -71,6 +77,8 @@ def trace(layers: Stack, *, rays: int, angle: float = 0.0, key: tuple[int, ...] 
         Of incidence, in degrees, 0 to 89.99.
     key : tuple of int
         Seed and whatever else names this stream of random numbers.
+    as_printed : bool
+        As in `spectrum`.
 
     Raises
     ------
@@ -79,24 +87,81 @@ def trace(layers: Stack, *, rays: int, angle: float = 0.0, key: tuple[int, ...] 
     RuntimeError
         If a ray was lost: no way out and nothing that absorbs.
     """
-    require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
+    arrival = _arrival(angle)
     outcome, layer = np.empty(rays, np.int8), np.empty(rays, np.int8)
     place, direction = np.empty((rays, 2)), np.empty((rays, 3))
-    radians = np.radians(angle)
-    walk(
-        *kernel_arguments(layers),
-        np.sin(radians),
-        np.cos(radians),
-        stream(*key),
-        outcome,
-        layer,
-        place,
-        direction,
-    )
-    if np.any(outcome == LOST):
-        raise RuntimeError("a ray found no end: the stack neither absorbs light nor lets it out")
+    walk = trace_as_printed if as_printed else trace_equivalent
+    arguments = kernel_arguments(_ready(layers, as_printed))
+    if not walk(*arguments, *arrival, stream(*key), outcome, layer, place, direction):
+        raise RuntimeError(NO_END)
     return Rays(outcome, layer, place, direction)
+
+
+def _ready(layers: Stack, as_printed: bool) -> Stack:
+    """The stack with survival in melanosomes tabulated, where the way of walking needs it."""
+    missing = any(each.encounter > 0.0 and each.survival < 0.0 for each in layers.layers)
+    return with_survival(layers) if missing and not as_printed else layers
+
+
+def _arrival(angle: float) -> tuple[float, float]:
+    """Sine and cosine of an angle of incidence in degrees."""
+    require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
+    return float(np.sin(np.radians(angle))), float(np.cos(np.radians(angle)))
+
+
+@dataclass(frozen=True)
+class Counts:
+    """How many rays ended how, each counted where it ended.
+
+    Attributes
+    ----------
+    left : (3,) int array
+        Reflected by the surface, come back from below it, and gone through the lower face.
+    absorbed : (2, L) int array
+        Absorbed by each layer's absorbers and in its melanosomes.
+    exits : (len(DISTANCE_EDGES),) int array
+        Those come back, by distance between entry and exit: bin i starts at DISTANCE_EDGES[i].
+    """
+
+    left: np.ndarray
+    absorbed: np.ndarray
+    exits: np.ndarray
+
+    @property
+    def rays(self) -> int:
+        """All that were counted."""
+        return int(self.left.sum() + self.absorbed.sum())
+
+    def __add__(self, other: "Counts") -> "Counts":
+        return Counts(
+            self.left + other.left, self.absorbed + other.absorbed, self.exits + other.exits
+        )
+
+
+def count(
+    layers: Stack,
+    *,
+    rays: int,
+    angle: float = 0.0,
+    key: tuple[int, ...] = (1,),
+    as_printed: bool = False,
+) -> Counts:
+    """Count how rays through a stack end: those that `trace` gives one by one.
+
+    Parameters and errors as in `trace`.
+    """
+    rays = require_whole("number of rays", rays, 1, MOST_RAYS)
+    arrival = _arrival(angle)
+    depth = len(layers.layers)
+    left, absorbed = np.zeros(3, np.int64), np.zeros((2, depth), np.int64)
+    exits = np.zeros(DISTANCE_EDGES.size, np.int64)
+    walk = count_as_printed if as_printed else count_equivalent
+    arguments = kernel_arguments(_ready(layers, as_printed))
+    edges = 0.1 * DISTANCE_EDGES
+    if not walk(*arguments, *arrival, stream(*key), rays, edges, left, absorbed, exits):
+        raise RuntimeError(NO_END)
+    return Counts(left, absorbed, exits)
 
 
 @dataclass(frozen=True)
@@ -111,7 +176,10 @@ class Spectrum:
     surface, subsurface : (W,) arrays
         Share of the light that the surface reflects, and that leaves after having been inside.
     absorbed, absorbed_in_melanosomes : (W, L) arrays
-        Share that ends in each layer's absorbers and in its melanosomes, counted there.
+        Share that ends in each layer's absorbers and in its melanosomes, counted there. Layers
+        are those of `hylios.tissue.PARTS`.
+    absorber_shares : (W, L, A) array
+        Of each layer's absorption coefficient, the share of each of `hylios.tissue.ABSORBERS`.
     exit_counts : (W, len(DISTANCE_EDGES)) int array
         Subsurface rays by distance between entry and exit: bin i starts at DISTANCE_EDGES[i].
     """
@@ -122,6 +190,7 @@ class Spectrum:
     subsurface: np.ndarray
     absorbed: np.ndarray
     absorbed_in_melanosomes: np.ndarray
+    absorber_shares: np.ndarray
     exit_counts: np.ndarray
 
     @property
@@ -133,6 +202,16 @@ class Spectrum:
     def absorptance(self) -> np.ndarray:
         """Share of the light that is absorbed, (W,), from its own tally."""
         return (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
+
+    @property
+    def absorbed_by(self) -> np.ndarray:
+        """Share of the light that ends in each layer's absorbers, one by one, (W, L, A).
+
+        What a layer's absorbers take together is counted; which of them took a ray depends on
+        nothing but their coefficients, so it is split by these, exactly: to draw the absorber
+        would only add noise.
+        """
+        return self.absorbed[:, :, None] * self.absorber_shares
 
     @property
     def standard_error(self) -> np.ndarray:
@@ -181,8 +260,9 @@ def spectrum(
     chosen : mapping, optional
         Readings of the thesis's text that differ from the defaults (`hylios.tissue.READINGS`).
     as_printed : bool
-        Walk every path inside a melanosome instead of using its tabulated survival: the same
-        model (see `hylios.transport.survival` for how nearly), slower.
+        Walk as the thesis prints it (`hylios.transport.printed`), instead of sampling the same
+        distributions without waste (`hylios.transport.equivalent`, which says how nearly the
+        same): the same model, slower.
 
     Raises
     ------
@@ -195,60 +275,59 @@ def spectrum(
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     seed = require_whole("seed", seed, 0, 2**63)
     threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
-    stacks = [stack(specimen, each, known=known, chosen=chosen) for each in asked]
-    if not as_printed:
-        stacks = [with_survival(each) for each in stacks]
+    stacks = [
+        _ready(stack(specimen, each, known=known, chosen=chosen), as_printed) for each in asked
+    ]
     work = (
-        (row, stacks[row], min(CHUNK, rays - first), (seed, round(asked[row] * 1000), first))
+        (row, min(CHUNK, rays - first), (seed, round(asked[row] * 1000), first))
         for row in range(asked.size)
         for first in range(0, rays, CHUNK)
     )
-    depth = len(stacks[0].layers)
-    counts = np.zeros((asked.size, 2 + 2 * depth), int)
-    exits = np.zeros((asked.size, DISTANCE_EDGES.size), int)
 
     def piece(task):
-        row, layers, size, key = task
-        traced = trace(layers, rays=size, angle=angle, key=key)
-        return row, size, _tally(traced, depth), _exit_counts(traced)
+        row, size, key = task
+        counted = count(stacks[row], rays=size, angle=angle, key=key, as_printed=as_printed)
+        return row, counted
 
-    for row, size, tally, counted in _in_threads(piece, work, threads):
-        counts[row] += tally
-        exits[row] += counted
+    found: list[Counts | None] = [None] * asked.size
+    for row, counted in in_threads(piece, work, threads):
+        before = found[row]
+        found[row] = counted if before is None else before + counted
         if progress:
-            progress(size)
-
-    shares = counts / rays
+            progress(counted.rays)
+    counts = [each for each in found if each is not None]
+    left = np.array([each.left for each in counts]) / rays
+    absorbed = np.array([each.absorbed for each in counts]) / rays
+    if np.any(left[:, TRANSMITTED] > 0):
+        raise RuntimeError("light left through the floor of a skin, whose reflectance is 1")
     return Spectrum(
         wavelengths=asked,
         rays=rays,
-        surface=shares[:, 0],
-        subsurface=shares[:, 1],
-        absorbed=shares[:, 2 : 2 + depth],
-        absorbed_in_melanosomes=shares[:, 2 + depth :],
-        exit_counts=exits,
+        surface=left[:, SURFACE],
+        subsurface=left[:, SUBSURFACE],
+        absorbed=absorbed[:, 0],
+        absorbed_in_melanosomes=absorbed[:, 1],
+        absorber_shares=np.array(
+            [_absorber_shares(specimen, each, known, chosen) for each in asked]
+        ),
+        exit_counts=np.array([each.exits for each in counts]),
     )
 
 
-def _tally(traced: Rays, depth: int) -> np.ndarray:
-    """Counts of surface, subsurface, absorbed by layer, absorbed in melanosomes by layer."""
-    ends = np.bincount(traced.outcome, minlength=LOST + 1)
-    if ends[TRANSMITTED]:
-        raise RuntimeError("light left through the floor of a skin, whose reflectance is 1")
-    layers = [
-        np.bincount(traced.layer[traced.outcome == kind], minlength=depth)
-        for kind in (ABSORBED, ABSORBED_IN_MELANOSOME)
-    ]
-    return np.concatenate([[ends[SURFACE], ends[SUBSURFACE]], *layers])
+def _absorber_shares(
+    specimen: Specimen,
+    wavelength: float,
+    known: Figures | None,
+    chosen: Mapping[str, str] | None,
+) -> np.ndarray:
+    """Of each layer's absorption, the share of each absorber (L, A); 0 where nothing absorbs."""
+    held = absorbers(specimen, wavelength, known=known, chosen=chosen)
+    table = np.array([[held[part].get(name, 0.0) for name in ABSORBERS] for part in PARTS])
+    whole = table.sum(axis=1, keepdims=True)
+    return np.divide(table, whole, out=np.zeros_like(table), where=whole > 0)
 
 
-def _exit_counts(traced: Rays) -> np.ndarray:
-    distance = traced.distance[traced.outcome == SUBSURFACE]
-    bins = np.searchsorted(DISTANCE_EDGES, distance, side="right") - 1
-    return np.bincount(bins, minlength=DISTANCE_EDGES.size)
-
-
-def _in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
+def in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
     """Results as they end, with a few tasks waiting; on any exception the waiting ones are dropped.
 
     The kernels release the interpreter's lock, so threads run at once.

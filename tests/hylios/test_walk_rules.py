@@ -85,10 +85,16 @@ def melanosomes(**values):
     return replace(usual, **values)
 
 
-def test_single_melanosomes_absorb_at_their_rate():
-    """Seldom met, so never drawn again: exp(-mu L (1 - survival))."""
-    layer = melanosomes(encounter=8.0, survival=0.3)
-    assert_share(transmitted(trace(Stack((layer,)), rays=RAYS)), np.exp(-8.0 * 0.1 * 0.7))
+@pytest.mark.parametrize("as_printed", [False, True])
+def test_single_melanosomes_absorb_at_their_rate(as_printed):
+    """Spheres without an index step, seldom met, so never drawn again: exp(-mu L (1 - survival)).
+
+    A chord 2 r h, h = sqrt(1 - u), is survived with 2 (1 - (1 + t) exp(-t)) / t^2, t = 2 r mu.
+    """
+    layer = melanosomes(encounter=8.0, melanin_absorption=2.5e4)
+    survival = 2.0 * (1.0 - 3.5 * np.exp(-2.5)) / 2.5**2
+    traced = trace(Stack((layer,)), rays=RAYS, as_printed=as_printed)
+    assert_share(transmitted(traced), np.exp(-8.0 * 0.1 * (1.0 - survival)))
 
 
 @pytest.mark.parametrize("counting", ["chord", "diameter"])
@@ -103,13 +109,14 @@ def test_a_complex_holds_the_melanosomes_of_its_chord(counting):
     assert_share(transmitted(traced), np.exp(-8.0 * 0.1 * absorbed))
 
 
-def test_melanosomes_do_not_overlap_or_leave_their_layer():
+@pytest.mark.parametrize("as_printed", [False, True])
+def test_melanosomes_do_not_overlap_or_leave_their_layer(as_printed):
     """Spheres of 1 um in 20 um, met every 2 um: the same rules in numpy, ray by ray."""
-    radius, depth, rate, survival, rays = 0.5e-4, 20e-4, 5000.0, 0.8, 20_000
+    radius, depth, rate, absorption, rays = 0.5e-4, 20e-4, 5000.0, 3000.0, 20_000
     random = np.random.default_rng(21)
-    passed = np.zeros(rays)
+    passed = np.ones(rays)
     for ray in range(rays):
-        place, before, met = 0.0, None, 0
+        place, before = 0.0, None
         while True:
             ahead = place + random.exponential(1.0 / rate)
             if ahead >= depth:
@@ -126,14 +133,14 @@ def test_melanosomes_do_not_overlap_or_leave_their_layer():
             inside = radius <= centre[2] <= depth - radius
             apart = before is None or np.linalg.norm(centre - before) >= 2.0 * radius
             if inside and apart:
-                place, before, met = ahead, centre, met + 1
-        passed[ray] = survival**met
-    layer = melanosomes(thickness=depth, encounter=rate, survival=survival)
-    found = transmitted(trace(Stack((layer,)), rays=RAYS))
+                place, before = ahead, centre
+                passed[ray] *= np.exp(-2.0 * absorption * np.sqrt(radius**2 - across**2))
+    layer = melanosomes(thickness=depth, encounter=rate, melanin_absorption=absorption)
+    found = transmitted(trace(Stack((layer,)), rays=RAYS, as_printed=as_printed))
     error = np.hypot(passed.std() / np.sqrt(rays), np.sqrt(found * (1.0 - found) / RAYS))
     assert abs(found - passed.mean()) < 4.0 * error
-    unhindered = np.exp(-rate * depth * (1.0 - survival))
-    assert found - unhindered > 20.0 * error
+    clear = 2.0 * (1.0 - 1.3 * np.exp(-0.3)) / 0.3**2  # survival of one
+    assert found - np.exp(-rate * depth * (1.0 - clear)) > 20.0 * error
 
 
 def test_melanosomes_turn_light_by_algorithm_1():
@@ -258,7 +265,7 @@ def test_a_change_in_any_source_is_compiled_anew(tmp_path):
 
     before = total()
     source = tmp_path / "hylios" / "transport" / "interfaces.py"
-    formula = "return 0.5 * (across * across + along * along), beyond"
+    formula = "return 0.5 * (across * across + along * along) / (both * both), beyond"
     assert formula in source.read_text()
     source.write_text(source.read_text().replace(formula, "return 0.5, beyond"))
     assert float(total()) > float(before) + 0.2

@@ -1,0 +1,252 @@
+"""The random walk of figure 4.3 without waste: the same distributions as printed, sampled exactly.
+
+- One optical depth is drawn for all attenuators together and spent across layers, then which of
+  them it is; distances have no memory, so this is what the nearest of one distance each would be.
+- Algorithms 1 and 2 and azimuths are drawn without their loops (`hylios.transport.sampling`).
+- A melanosome's place and orientation are drawn only where they could matter: where the layer's
+  face or the melanosome before is near enough to touch. Elsewhere the probability of leaving it
+  unabsorbed is that over all places, tabulated (`hylios.transport.survival`). Where a melanosome
+  left behind unseen turns out to matter for the next, its place is drawn then, from those in which
+  the ray survived.
+- Where a melanosome is drawn again, the other attenuators keep the distances that they had, as in
+  the walk as printed: all beyond the first melanosome.
+
+All of it is exact but for the table; see there how nearly it is.
+"""
+
+import math
+
+from hylios.transport.compiling import part
+from hylios.transport.generator import uniform
+from hylios.transport.interfaces import meet_surface
+from hylios.transport.melanosome import drawn_body, overlap, survives_melanosome
+from hylios.transport.sampling import (
+    azimuth,
+    exponential_angle,
+    forward_angle,
+    free_path,
+    henyey_greenstein_cosine,
+    rayleigh_cosine,
+    turned,
+)
+from hylios.transport.vectors import about, added, dot
+from hylios.transport.walk import (
+    ABSORBED,
+    ABSORBED_IN_MELANOSOME,
+    ABSORBER,
+    ABSORPTION,
+    ANISOTROPY,
+    BOTTOM,
+    COMPLEX_RADIUS,
+    ENCOUNTER,
+    FIBRES,
+    INDEX,
+    INTERFACE,
+    LONGEST_PATH,
+    LOST,
+    MELANIN,
+    MELANOSOME,
+    MOST_DRAWS,
+    MOST_EVENTS,
+    RAYLEIGH,
+    SCATTERER,
+    SCATTERING,
+    SEMI_MAJOR,
+    SEMI_MINOR,
+    SURFACE,
+    SURVIVAL,
+    TOP,
+    UNDECIDED,
+    distance_to_face,
+    fits,
+    meet_face,
+    melanosomes_met,
+)
+
+NONE, UNSEEN, SEEN = range(3)
+"""What is known of the melanosome met before in this traversal of a layer."""
+
+
+@part
+def walk_equivalent(layers, surroundings, readings, ray, state):
+    """One ray from its arrival at the surface to its end.
+
+    Returns how it ended, the layer that absorbed it (-1 if none did), where, and its direction.
+    """
+    roughness, above, _, melanin_index, scale = surroundings
+    _, by_diameter, bent, exponential, every, _, _ = readings
+    position = (0.0, 0.0, 0.0)
+    crossed, ray = meet_surface(state, ray, above, layers[0, INDEX], roughness)
+    if not crossed:
+        return SURFACE, -1, position, ray
+
+    here, fibres_ahead = 0, True
+    before, before_hit, before_ray, before_chord = NONE, position, ray, 1.0
+    before_centre, before_axis = position, ray
+    depth = free_path(state, 1.0)
+    for _ in range(MOST_EVENTS):
+        others = layers[here, ABSORPTION] + layers[here, SCATTERING]
+        if fibres_ahead:
+            others += layers[here, RAYLEIGH]
+        total = others + layers[here, ENCOUNTER]
+        face = distance_to_face(layers, here, position, ray)
+        axis, point, centre = ray, ray, position
+        seen = False
+        optics = (
+            layers[here, MELANIN],
+            melanin_index,
+            layers[here, INDEX],
+            bent,
+            layers[here, LONGEST_PATH],
+        )
+        if depth < total * face:
+            distance = depth / total
+            depth = free_path(state, 1.0)
+            event = _kind(layers, here, total * uniform(state))
+            if event == MELANOSOME:
+                hit = added(position, distance, ray)
+                if not _out_of_touch(layers, here, hit, before, before_hit):
+                    seen = True
+                    half_axes = (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR])
+                    if before == UNSEEN:
+                        before = SEEN
+                        before_axis, before_centre = _recalled(
+                            state,
+                            before_hit,
+                            before_ray,
+                            before_chord,
+                            half_axes,
+                            layers[here, COMPLEX_RADIUS],
+                            optics,
+                        )
+                    distance, event, axis, point, centre = _placed(
+                        state,
+                        layers,
+                        here,
+                        position,
+                        ray,
+                        distance,
+                        face,
+                        others,
+                        before == SEEN,
+                        before_centre,
+                        before_axis,
+                    )
+        else:
+            distance, event = face, INTERFACE
+            depth -= total * face
+
+        if distance == math.inf:
+            return LOST, here, position, ray
+        position = added(position, distance, ray)
+        if event == INTERFACE:
+            fibres_ahead, before = True, NONE
+            # at the face itself, not where rounding has put the ray
+            face = layers[here, BOTTOM] if ray[2] > 0.0 else layers[here, TOP]
+            position = (position[0], position[1], face)
+            end, here, ray = meet_face(state, layers, surroundings, readings, here, ray)
+            if end != UNDECIDED:
+                return end, -1, position, ray
+        elif event == ABSORBER:
+            return ABSORBED, here, position, ray
+        elif event == MELANOSOME:
+            chord = 1.0
+            if layers[here, COMPLEX_RADIUS] > 0.0:
+                chord = -dot(point, ray) if seen else math.sqrt(1.0 - uniform(state))
+                count = melanosomes_met(layers, here, chord, by_diameter)
+                survived = uniform(state) < layers[here, SURVIVAL] ** count
+            elif seen:
+                survived = survives_melanosome(
+                    state,
+                    ray,
+                    axis,
+                    point,
+                    (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]),
+                    optics,
+                )
+            else:
+                survived = uniform(state) < layers[here, SURVIVAL]
+            if not survived:
+                return ABSORBED_IN_MELANOSOME, here, position, ray
+            before = SEEN if seen else UNSEEN
+            before_hit, before_ray, before_chord = position, ray, chord
+            before_centre, before_axis = centre, axis
+            if scale > 0.0:
+                polar = (
+                    exponential_angle(state, scale) if exponential else forward_angle(state, scale)
+                )
+                ray = turned(state, ray, math.cos(polar))
+        elif event == FIBRES:
+            ray = turned(state, ray, rayleigh_cosine(state))
+            fibres_ahead = every
+        else:
+            ray = turned(state, ray, henyey_greenstein_cosine(state, layers[here, ANISOTROPY]))
+    return LOST, here, position, ray
+
+
+@part
+def _kind(layers, here, drawn):
+    """Which attenuator it is, for a number from 0 to the sum of their coefficients."""
+    drawn -= layers[here, ENCOUNTER]
+    if drawn < 0.0:
+        return MELANOSOME
+    drawn -= layers[here, ABSORPTION]
+    if drawn < 0.0:
+        return ABSORBER
+    drawn -= layers[here, SCATTERING]
+    return SCATTERER if drawn < 0.0 else FIBRES
+
+
+@part
+def _out_of_touch(layers, here, hit, before, before_hit):
+    """Whether what is hit there can neither cross a face nor overlap what was met before."""
+    size = 2.0 * max(layers[here, SEMI_MAJOR], layers[here, COMPLEX_RADIUS])
+    if hit[2] - layers[here, TOP] < size or layers[here, BOTTOM] - hit[2] < size:
+        return False
+    between = added(hit, -1.0, before_hit)
+    return before == NONE or dot(between, between) >= 4.0 * size * size
+
+
+@part
+def _recalled(state, hit, ray, chord, half_axes, radius, optics):
+    """Axis and centre of what a ray met at `hit` and survived, its place not drawn then."""
+    if radius > 0.0:
+        point = about(ray, math.sqrt(max(0.0, 1.0 - chord * chord)), -chord, azimuth(state))
+        return ray, added(hit, -radius, point)
+    while True:
+        axis, point, offset = drawn_body(state, ray, half_axes, radius)
+        if survives_melanosome(state, ray, axis, point, half_axes, optics):
+            return axis, added(hit, 1.0, offset)
+
+
+@part
+def _placed(
+    state, layers, here, position, ray, distance, face, others, seen, before_centre, before_axis
+):
+    """A melanosome first tried at a distance, and drawn again until it has room.
+
+    Returns distance and kind of the event, which is another where that comes first; and axis,
+    point hit and centre of the melanosome.
+    """
+    half_axes, radius = (
+        (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]),
+        layers[here, COMPLEX_RADIUS],
+    )
+    path, other = distance, -1.0
+    axis, point, centre = ray, ray, position
+    for _ in range(MOST_DRAWS):
+        axis, point, offset = drawn_body(state, ray, half_axes, radius)
+        centre = added(added(position, path, ray), 1.0, offset)
+        if fits(layers, here, centre, axis) and not (
+            seen and overlap(centre, axis, before_centre, before_axis, half_axes, radius)
+        ):
+            return path, MELANOSOME, axis, point, centre
+        if other < 0.0:
+            other = min(face, distance + free_path(state, others))
+        path = free_path(state, layers[here, ENCOUNTER])
+        if path >= other:
+            break
+    if other == face:
+        return face, INTERFACE, axis, point, centre
+    kind = _kind(layers, here, layers[here, ENCOUNTER] + others * uniform(state))
+    return other, kind, axis, point, centre

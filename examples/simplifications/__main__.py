@@ -1,12 +1,14 @@
-"""Measures what each simplification costs and buys: `python -m examples.simplifications`.
+"""Measures what each simplification costs and buys: `make simplifications`.
 
-Writes docs/simplifications.md. Minutes of work on one core.
+Writes docs/simplifications.md; minutes of work.
 """
 
 import argparse
+import datetime
 import os
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,20 +17,25 @@ from tqdm import tqdm
 from examples.simplifications import measures, report, variants
 from examples.simplifications.edge import Edge, tan_line
 from examples.simplifications.light import stacks, walk_seconds
-from examples.simplifications.measures import Case, Effort
+from examples.simplifications.measures import Case, Effort, Row
 from hylios.quadrature import skin_quadrature
 from hylios.shell import run
 from hylios.specimen import SPECIMENS
 from hylios.transport.simulate import Spectrum, spectrum
-from lut_builder.build import BANDS_NM
+from lut_builder.build import BANDS_NM, PRESETS
 
 DOCUMENT = Path("docs/simplifications.md")
 
 CHOICES = [
-    *((f"{measures.EVEN[::step].size} wavelengths, every {5 * step} nm", measures.even(step))
-      for step in (1, 2, 4, 5, 10)),
-    *((f"{count} wavelengths, chosen", skin_quadrature(count)) for count in (16, 12, 8, 7, 6, 5, 4)),
-]  # fmt: skip
+    *(
+        (f"{measures.EVEN[::step].size} wavelengths, every {5 * step} nm", measures.even(step))
+        for step in (1, 2, 4, 5, 10)
+    ),
+    *(
+        (f"{count} wavelengths, chosen", skin_quadrature(count))
+        for count in (16, 12, 8, 7, 6, 5, 4)
+    ),
+]
 
 CASES = [
     Case("melanosomes as plain absorber", variants.plain_absorber),
@@ -36,11 +43,11 @@ CASES = [
     Case("one epidermis", variants.one_epidermis),
     Case("three epidermal layers, melanin spread evenly", variants.spread_evenly),
     Case("no dysfunctional haemoglobins, no carotene", variants.no_rare_pigments),
-    Case("all of these", variants.all_of_it),
+    Case("all of these in one epidermis", variants.all_of_it),
     Case("light at 0 instead of 8 degrees", variants.whole, angle=0.0),
 ]
 
-RAY_COUNTS = (1_000_000, 100_000, 10_000, 1_000)
+RAY_COUNTS = (10_000, 1_000)
 
 LINE_RAYS, PROFILE_RAYS = 20_000, 10_000
 """Per wavelength: for a tan line, and for the widths of profiles."""
@@ -52,30 +59,57 @@ def measure(_: argparse.Namespace) -> None:
     """Measure and write the document."""
     started, worked = time.monotonic(), time.process_time()
     effort = Effort()
-    steps = effort.rounds * (len(CASES) + 2) + len(CASES) + 2 + 2 * len(SPECIMENS) + 2
+    steps = effort.rounds * (len(CASES) + 2) + len(CASES) + 1 + 2 * len(SPECIMENS) + 3
     with tqdm(total=steps, desc="simplifications", file=sys.stderr) as bar:
 
         def told() -> None:
             bar.update()
 
-        known = measures.truth()
         walk_seconds(stacks([SPECIMENS["S3"]], measures.COARSE[:1], variants.whole), 1)  # compiles
+        known = measures.truth()
         told()
+        wavelengths = measures.wavelength_rows(known, CHOICES, effort, told)
+        profiles = profiles_of_specimens(told)
         found = report.Findings(
-            wavelengths=measures.wavelength_rows(known, CHOICES, effort, told),
+            wavelengths=wavelengths,
             rays=measures.ray_rows(known, RAY_COUNTS),
-            model=measures.variant_rows(known, CASES, effort, told),
+            model=[
+                *measures.variant_rows(known, CASES, effort, told),
+                Row("no profile, away from edges", *no_difference(known), None, None, None, 1.0),
+            ],
+            choices=CHOICES,
+            presets=preset_rows(wavelengths),
             lines=tan_lines(told),
-            profiles=(profiles := profiles_of_specimens(told)),
+            profiles=profiles,
             walked=measures.walked_difference(known, np.array([each.total for each in profiles])),
-            walked_rays=PROFILE_RAYS,
+            solver=measures.solver_over_walk(effort),
             bands=bands(effort),
             render=render(),
-            seconds=time.process_time() - worked,
         )
-        told()
-    write(report.markdown(found), DOCUMENT)
+        bar.update(steps - bar.n)
+    text = report.markdown(found, datetime.date.today(), time.process_time() - worked)
+    write(text, DOCUMENT)
     print(f"wrote {DOCUMENT} in {time.monotonic() - started:.0f} s")
+
+
+def no_difference(known: measures.Truth) -> tuple[np.ndarray, np.ndarray]:
+    """What costs nothing, as two fields of a `Row`."""
+    return known.differences(known.colours)
+
+
+def preset_rows(wavelengths: Sequence[Row]) -> list[Row]:
+    """Today's presets of the table builder, and what could stand in their place."""
+    rows = {row.what: row for row in wavelengths}
+    made = []
+    for name, settings in PRESETS.items():
+        row = rows[f"{len(settings.visible)} wavelengths, every {np.diff(settings.visible)[0]:g} nm"]
+        what = f"{name} today: {row.what}, {settings.rays:,} rays"
+        made.append(measures.with_rays(row, what, settings.rays))
+    for name, count, rays in (("small", 8, 50_000), ("standard", 8, 90_000)):
+        row = rows[f"{count} wavelengths, chosen"]
+        what = f"{name} to come: {row.what}, {rays:,} rays"
+        made.append(measures.with_rays(row, what, rays))
+    return made
 
 
 def tan_lines(told: measures.Progress) -> list[Edge]:

@@ -10,7 +10,7 @@ from hylios import colour
 from hylios.adding import solve
 from hylios.specimen import Specimen
 from hylios.tissue import Stack
-from hylios.transport.simulate import trace
+from hylios.transport.simulate import count
 from hylios.transport.survival import with_survival
 
 GRID = np.arange(360.0, 781.0, 5.0)
@@ -47,7 +47,7 @@ def walk_seconds(
     """Processor time (N,) of a random walk through each stack, one thread."""
 
     def walk(index: int) -> None:
-        trace(layers[index], rays=rays, angle=angle, key=(SEED, round_, index))
+        count(layers[index], rays=rays, angle=angle, key=(SEED, round_, index))
 
     return np.array([seconds(lambda index=index: walk(index)) for index in range(len(layers))])
 

@@ -1,7 +1,7 @@
 """What a simplification costs in colour and buys in time."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -190,6 +190,22 @@ def ray_rows(known: Truth, counts: Sequence[int]) -> list[Row]:
         differences = known.differences(drawn @ weights.T)
         rows.append(Row(f"{rays:,} rays per wavelength", *differences, chance, rays / RAYS, 1.0, None))
     return rows
+
+
+def with_rays(row: Row, what: str, rays: int) -> Row:
+    """A row for another number of rays per wavelength than `RAYS`."""
+    share = rays / RAYS
+    chance = None if row.noise is None else row.noise / np.sqrt(share)
+    walk = None if row.walk is None else row.walk * share
+    return replace(row, what=what, noise=chance, walk=walk)
+
+
+def solver_over_walk(effort: Effort) -> float:
+    """Time of the solver without noise relative to the walk's with `RAYS` rays per wavelength."""
+    skins = list(SPECIMENS.values())
+    walk = walk_seconds(stacks(skins, COARSE, whole), effort.rays).sum() / effort.rays * RAYS
+    (solver,) = _solver_seconds(skins, [(whole, COARSE, ANGLE)], effort.rounds)
+    return float(solver / walk)
 
 
 def walked_difference(known: Truth, light: np.ndarray) -> float:

@@ -10,12 +10,13 @@ import numpy as np
 from examples.simplifications.edge import DARKEST_DAY, JUST_VISIBLE, Edge
 from examples.simplifications.measures import EVEN, RAYS, Row
 from examples.simplifications.skins import DAYS, DOSE
+from examples.simplifications.text import *  # noqa
 from hylios import colour
 from hylios.profile import burley_width
-from hylios.quadrature import skin_quadrature
+from hylios.quadrature import Quadrature
 from hylios.specimen import SPECIMENS
 from hylios.transport.simulate import DISTANCE_EDGES, Spectrum
-from lut_builder.build import BANDS_NM
+from lut_builder.build import BANDS_NM, PRESETS
 
 
 @dataclass(frozen=True)
@@ -25,73 +26,160 @@ class Findings:
     Attributes
     ----------
     wavelengths, rays, model : lists of Row
+    choices : list of (str, Quadrature)
+        Those of `wavelengths`, the full model's first.
+    presets : list of Row
+        Of the table builder's presets as they are.
     lines : list of Edge
         Of S1 to S4.
     profiles : list of Spectrum
         Of S1 to S4 at `EVEN`.
     walked : float
-        CIEDE2000 between the two solvers, with `walked_rays` per wavelength.
+        CIEDE2000 between the two solvers on S1 to S4.
+    solver : float
+        Time of the solver without noise relative to a walk with `RAYS` rays per wavelength.
     bands : (3,) array
         Time of a ray at `BANDS_NM`, relative to the visible.
     render : float, optional
         Time of rendering with subsurface relative to that without.
-    seconds : float
-        Processor time of it all.
     """
 
     wavelengths: Sequence[Row]
     rays: Sequence[Row]
     model: Sequence[Row]
+    choices: Sequence[tuple[str, Quadrature]]
+    presets: Sequence[Row]
     lines: Sequence[Edge]
     profiles: Sequence[Spectrum]
     walked: float
-    walked_rays: int
+    solver: float
     bands: np.ndarray
     render: float | None
-    seconds: float
 
 
-def markdown(found: Findings) -> str:
-    """The document as Markdown."""
-    return "todo"
+def markdown(found: Findings, today: datetime.date, seconds: float) -> str:
+    """The document as Markdown; `seconds` of processor time were spent on it."""
+    parts = [
+        INTRODUCTION.format(
+            dose=DOSE,
+            days=", ".join(f"{day}" for day in DAYS[:-1]) + f" and {DAYS[-1]}",
+            rays=RAYS,
+        ),
+        "## The table",
+        rows_table([*found.wavelengths, *found.rays, *found.model]),
+        HOW.format(
+            date=today.isoformat(),
+            minutes=seconds / 60.0,
+            machine=f"{platform.machine()}, Python {platform.python_version()}",
+            rays=found.profiles[0].rays,
+            walked=found.walked,
+            solver=1.0 / found.solver,
+        ),
+        "## Which wavelengths",
+        CHOOSING,
+        "### Width of the profile",
+        WIDTHS.format(rays=found.profiles[0].rays),
+        widths_table(found),
+        "## A tan line without a profile",
+        LINES.format(day=DARKEST_DAY, visible=JUST_VISIBLE),
+        lines_table(found.lines),
+        _renders(found.render),
+        "## Ultraviolet and infrared",
+        _bands(found.bands),
+        "## What a scene needs",
+        NEEDS,
+        PRESETS_TODAY,
+        rows_table(found.presets),
+        PRESETS_TO_COME,
+    ]
+    return "\n\n".join(part.strip() for part in parts) + "\n"
 
 
-def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table, the first column to the left, numbers to the right."""
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table, the first column to the left, the others to the right."""
     lines = [heads, ["---", *["---:"] * (len(heads) - 1)], *rows]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
-def cost(differences: np.ndarray) -> str:
-    """Mean and largest CIEDE2000."""
-    return f"{small(differences.mean())} ({small(differences.max())})"
-
-
-def small(number: float) -> str:
-    """Two significant digits, but no more than three places."""
-    return f"{number:.3f}" if number < 0.1 else f"{number:.2f}"
-
-
-def times(number: float | None) -> str:
-    """A relative time."""
-    return "" if number is None else f"{number:.2f}" if number < 10 else f"{number:.0f}"
-
-
-def main_table(rows: Sequence[Row]) -> str:
-    """Rows as a table."""
-    heads = ("simplification", "S1 to S4", "tans", "noise", "walk", "walk, same noise", "solver")
-    return table(
+def rows_table(rows: Sequence[Row]) -> str:
+    """Rows as a Markdown table."""
+    heads = ("", "S1 to S4", "tans", "noise", "walk", "walk, same noise", "solver")
+    return _table(
         heads,
         [
             [
                 row.what,
-                cost(row.specimens),
-                cost(row.tans),
-                "" if row.noise is None else small(row.noise),
-                times(row.walk),
-                times(row.walk_same_noise),
-                times(row.solver),
+                _cost(row.specimens),
+                _cost(row.tans),
+                _number(row.noise),
+                _number(row.walk),
+                _number(row.walk_same_noise),
+                _number(row.solver),
             ]
             for row in rows
         ],
     )
+
+
+def _cost(differences: np.ndarray) -> str:
+    """Mean and largest CIEDE2000."""
+    return f"{_number(differences.mean())}, {_number(differences.max())}"
+
+
+def _number(value: float | None) -> str:
+    """Two significant digits, at most three places."""
+    if value is None:
+        return ""
+    return "0" if value < 0.0005 else f"{value:.{min(max(1 - int(np.floor(np.log10(value))), 0), 3)}f}"
+
+
+def profile_widths(light: Spectrum, choice: Quadrature, *, signed: bool) -> np.ndarray:
+    """Burley's d in mm of the red, green and blue channel (3,) from some of the wavelengths.
+
+    With `signed`, wavelengths that lower a channel take their light away from its profile, where
+    that leaves any; else they are left out.
+    """
+    weights = choice.weights if signed else np.maximum(choice.weights, 0.0)
+    exits = weights @ light.exit_counts[np.searchsorted(light.wavelengths, choice.wavelengths)]
+    return np.array([burley_width(DISTANCE_EDGES, row) for row in np.maximum(exits, 0.0)])
+
+
+def widths_table(found: Findings) -> str:
+    """Widths from fewer wavelengths, relative to those from all."""
+    rows = []
+    for signed, way in ((True, "all weights"), (False, "weights above 0 only")):
+        (_, full), *others = found.choices
+        for what, choice in others:
+            ratios = np.array(
+                [
+                    profile_widths(each, choice, signed=signed)
+                    / profile_widths(each, full, signed=signed)
+                    for each in found.profiles
+                ]
+            )
+            missed = 100.0 * np.abs(ratios - 1.0)
+            rows.append([f"{what}, {way}", *(f"{mean:.1f} %" for mean in missed.mean(axis=0))])
+    return _table(("", "red", "green", "blue"), rows)
+
+
+def lines_table(lines: Sequence[Edge]) -> str:
+    """One row for each of S1 to S4."""
+    rows = [
+        [
+            name,
+            _number(float(colour.difference(line.sharp[0], line.sharp[-1]))),
+            _number(line.mean_within(1.0)),
+            _number(line.mean_within(3.0)),
+            f"{line.visible_to:.1f} mm",
+        ]
+        for name, line in zip(SPECIMENS, lines, strict=True)
+    ]
+    return _table(("", "tan", "within 1 mm", "within 3 mm", "visible to"), rows)
+
+
+def _renders(ratio: float | None) -> str:
+    return f"render {ratio}"
+
+
+def _bands(ratios: np.ndarray) -> str:
+    return f"bands {ratios}"

@@ -127,12 +127,18 @@ def test_a_metric_is_the_difference_squared(held_out):
 
 
 @pytest.mark.slow
-def test_the_shipped_table_is_what_the_choice_gives():
+def test_the_shipped_table_is_as_good_as_a_new_choice():
+    """Mean squared difference over the skins that it was chosen by, within a tenth."""
+    skins = skin_colours()
+    goal = skins.reflectances @ skins.weights.T
+
+    def error(found):
+        missed = at(found.wavelengths, skins.reflectances) @ found.weights.T - goal
+        return np.mean(np.einsum("si,sij,sj->s", missed, skins.metrics, missed))
+
     allowed = (GRID >= 400.0) & (GRID <= 700.0)
-    for made in choose(skin_colours(), 6, allowed=allowed)[FEWEST - 1 :]:
-        shipped = skin_quadrature(made.wavelengths.size)
-        assert np.array_equal(made.wavelengths, shipped.wavelengths)
-        assert made.weights == pytest.approx(shipped.weights, abs=1e-6)
+    for made in choose(skins, 8, allowed=allowed)[FEWEST - 1 :]:
+        assert error(skin_quadrature(made.wavelengths.size)) < 1.1 * error(made)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ STANDARD = set(sys.stdlib_module_names)
 
 ALLOWED = {
     "hylios": {"numpy"},
+    "hylios/adding": {"numpy"},
     "hylios/colour.py": {"numpy", "colour"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},

@@ -1,0 +1,8 @@
+"""Reflectance and absorptance of plane layers without random numbers.
+
+The model is the random walk's of `hylios.transport`, averaged instead of drawn; numpy only.
+"""
+
+from hylios.adding.solver import NODES, Reflectance, solve
+
+__all__ = ["NODES", "Reflectance", "solve"]

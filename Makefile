@@ -4,7 +4,7 @@ PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-all lint bench package environment
+.PHONY: demo test test-all lint bench simplifications package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
@@ -24,6 +24,11 @@ test-all: lint
 
 bench: environment
 	@$(BIN)/python -m examples.bench
+
+# Measures what each part of the light model costs and is worth, and writes the page in docs/.
+# One thread of linear algebra: its threads would count as work while they wait.
+simplifications: environment
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m examples.simplifications
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

@@ -41,13 +41,11 @@ def seconds(work: Callable[[], object]) -> float:
     return time.process_time() - start
 
 
-def walk_seconds(
-    layers: Sequence[Stack], rays: int, round_: int = 0, angle: float = ANGLE
-) -> np.ndarray:
-    """Processor time (N,) of a random walk through each stack, one thread."""
+def walk_seconds(layers: Sequence[Stack], rays: int, angle: float = ANGLE) -> np.ndarray:
+    """Processor time (N,) of a random walk through each stack, one thread, the same each time."""
 
     def walk(index: int) -> None:
-        count(layers[index], rays=rays, angle=angle, key=(SEED, round_, index))
+        count(layers[index], rays=rays, angle=angle, key=(SEED, index))
 
     return np.array([seconds(lambda index=index: walk(index)) for index in range(len(layers))])
 

@@ -40,12 +40,12 @@ Progress = Callable[[], object]
 class Effort:
     """How much is walked to measure times.
 
-    `rays` per skin and wavelength of a variant; `rounds` of all variants, one after the other, so
-    that a machine's moods hit all alike. The median of the rounds counts.
+    `rays` per skin and wavelength of a variant; `rounds` of the same work, of which the least time
+    counts: that which other work on the machine disturbed least.
     """
 
-    rays: int = 2000
-    rounds: int = 5
+    rays: int = 1500
+    rounds: int = 7
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def truth() -> Truth:
 
 
 def even(step: int) -> Quadrature:
-    """Every so-manieth wavelength of the full model."""
+    """One wavelength in `step` of the full model's, and its weights."""
     return Quadrature(EVEN[::step], colour.rec709_weights(EVEN[::step]))
 
 
@@ -124,10 +124,10 @@ def wavelength_rows(
     timed = list(SPECIMENS.values())
     layers = stacks(timed, EVEN, whole)
     rounds = []
-    for round_ in range(effort.rounds):
-        rounds.append(walk_seconds(layers, effort.rays // 4, round_))
+    for _ in range(effort.rounds):
+        rounds.append(walk_seconds(layers, effort.rays // 3))
         progress()
-    walked = np.median(rounds, axis=0).reshape(len(timed), -1)
+    walked = np.min(rounds, axis=0).reshape(len(timed), -1)
     cases = [(whole, each.wavelengths, ANGLE) for _, each in choices]
     solver = _solver_seconds(timed, cases, effort.rounds)
     progress()
@@ -143,6 +143,17 @@ def wavelength_rows(
     return rows
 
 
+def gauss_rows(known: Truth, choices: Sequence[tuple[str, Quadrature]]) -> list[Row]:
+    """Rows of wavelengths between those of `GRID`, which reflectance is interpolated to."""
+    rows = []
+    for what, each in choices:
+        reflectance = np.array([np.interp(each.wavelengths, GRID, r) for r in known.reflectance])
+        chance = noise(each.weights, reflectance, known.colours, RAYS)
+        differences = known.differences(reflectance @ each.weights.T)
+        rows.append(Row(what, *differences, chance, None, None, None))
+    return rows
+
+
 def variant_rows(
     known: Truth, cases: Sequence[Case], effort: Effort, progress: Progress
 ) -> list[Row]:
@@ -150,13 +161,12 @@ def variant_rows(
     everything = [Case("", whole), *cases]
     timed = list(SPECIMENS.values())
     layers = [stacks(timed, COARSE, each.variant) for each in everything]
-    rounds = np.empty((effort.rounds, len(everything), len(timed)))
-    for round_ in range(effort.rounds):
-        for number, (case, some) in enumerate(zip(everything, layers, strict=True)):
-            each = walk_seconds(some, effort.rays, round_, case.angle)
-            rounds[round_, number] = each.reshape(len(timed), -1).sum(axis=1)
-            progress()
-    walk = np.median(rounds, axis=0)
+    rounds = []
+    for _ in range(effort.rounds):
+        pairs = zip(everything, layers, strict=True)
+        rounds.append([walk_seconds(some, effort.rays, case.angle) for case, some in pairs])
+        progress()
+    walk = np.min(rounds, axis=0).reshape(len(everything), len(timed), -1).sum(axis=-1)
     relative = (walk / walk[0]).mean(axis=1)
     work = [(case.variant, COARSE, case.angle) for case in everything]
     solver = _solver_seconds(timed, work, effort.rounds)
@@ -169,9 +179,7 @@ def variant_rows(
         chance = noise(colour.rec709_weights(EVEN), seen, known.colours, RAYS)
         more = (chance / _full_noise(known)) ** 2
         differences = known.differences(reflectance @ weights.T)
-        rows.append(
-            Row(case.what, *differences, chance, walking, walking * more, float(solving))
-        )
+        rows.append(Row(case.what, *differences, chance, walking, walking * more, float(solving)))
     return rows
 
 
@@ -188,7 +196,8 @@ def ray_rows(known: Truth, counts: Sequence[int]) -> list[Row]:
         drawn = random.binomial(rays, reflectance, (DRAWS, *reflectance.shape)) / rays
         chance = noise(weights, reflectance, known.colours, rays)
         differences = known.differences(drawn @ weights.T)
-        rows.append(Row(f"{rays:,} rays per wavelength", *differences, chance, rays / RAYS, 1.0, None))
+        what = f"{rays:,} rays per wavelength"
+        rows.append(Row(what, *differences, chance, rays / RAYS, 1.0, None))
     return rows
 
 
@@ -203,18 +212,17 @@ def with_rays(row: Row, what: str, rays: int) -> Row:
 def solver_over_walk(effort: Effort) -> float:
     """Time of the solver without noise relative to the walk's with `RAYS` rays per wavelength."""
     skins = list(SPECIMENS.values())
-    walk = walk_seconds(stacks(skins, COARSE, whole), effort.rays).sum() / effort.rays * RAYS
+    layers = stacks(skins, COARSE, whole)
+    rounds = [walk_seconds(layers, effort.rays) for _ in range(effort.rounds)]
+    walk = np.min(rounds, axis=0).sum() / effort.rays * RAYS
     (solver,) = _solver_seconds(skins, [(whole, COARSE, ANGLE)], effort.rounds)
     return float(solver / walk)
 
 
 def walked_difference(known: Truth, light: np.ndarray) -> float:
     """Mean CIEDE2000 on S1 to S4 between the walk's reflectance (4, len(EVEN)) and the truth."""
-    return float(
-        colour.difference(
-            known.colours[: len(light)], colour.linear_rec709(EVEN, light)
-        ).mean()
-    )
+    walked = colour.linear_rec709(EVEN, light)
+    return float(colour.difference(known.colours[: len(light)], walked).mean())
 
 
 def _full_noise(known: Truth) -> float:
@@ -226,15 +234,12 @@ def _solver_seconds(
     work: Sequence[tuple[Variant, np.ndarray, float]],
     rounds: int,
 ) -> np.ndarray:
-    """Median processor time of the solver without noise for each piece of work.
+    """Least processor time of the solver without noise for each piece of work.
 
     Making the layers counts; a first round, in which it prepares what all skins share, does not.
     """
     times = [
-        [
-            seconds(lambda each=each: reflectances(skins, each[1], each[0], each[2]))
-            for each in work
-        ]
+        [seconds(lambda each=each: reflectances(skins, each[1], each[0], each[2])) for each in work]
         for _ in range(rounds + 1)
     ]
-    return np.median(times[1:], axis=0)
+    return np.min(times[1:], axis=0)

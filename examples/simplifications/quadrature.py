@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.polynomial import legendre
 
 import hylios
 from examples.simplifications.light import GRID, metrics, reflectances
@@ -28,6 +29,23 @@ def skin_colours(count: int = SKINS, seed: int = 1) -> Colours:
     weights = colour.rec709_weights(GRID)
     light = reflectances(random_skins(count, seed), GRID, whole)
     return Colours(GRID, weights, light, metrics(light @ weights.T))
+
+
+def gauss(count: int) -> Quadrature:
+    """Gauss's quadrature for what the eye sees of daylight, to compare with.
+
+    Nodes are those of Gauss for the weight (x + y + z) D65 on `GRID`, weights those that give
+    each channel of a polynomial reflectance of a degree below `count` exactly.
+    """
+    full = colour.rec709_weights(GRID)
+    weight = colour.xyz_weights(GRID).sum(axis=0)
+    place = np.interp(GRID, (GRID[0], GRID[-1]), (-1.0, 1.0))
+    polynomials = legendre.legvander(place, count - 1)
+    orthonormal, _ = np.linalg.qr(np.sqrt(weight)[:, None] * polynomials)
+    nodes = np.linalg.eigvalsh(orthonormal.T @ (place[:, None] * orthonormal))
+    moments = full @ polynomials
+    weights = np.linalg.solve(legendre.legvander(nodes, count - 1).T, moments.T).T
+    return Quadrature(np.interp(nodes, (-1.0, 1.0), (GRID[0], GRID[-1])), weights)
 
 
 def write(quadratures: Sequence[Quadrature], path: Path) -> None:

@@ -65,7 +65,9 @@ def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
     thickness = sum(each.thickness for each in parts)
 
     def mean(quantities) -> float:
-        return sum(q * each.thickness for q, each in zip(quantities, parts, strict=True)) / thickness
+        return (
+            sum(q * each.thickness for q, each in zip(quantities, parts, strict=True)) / thickness
+        )
 
     # Melanosomes attenuate as their content over their size (4.3).
     joined = replace(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from examples.simplifications.light import GRID, metrics, reflectances
-from examples.simplifications.quadrature import skin_colours
+from examples.simplifications.quadrature import gauss, skin_colours
 from examples.simplifications.variants import whole
 from hylios import colour
 from hylios.errors import InputError
@@ -111,6 +111,24 @@ def test_few_rays_make_for_even_weights():
     problem = colours_of(np.full((5, 6), 0.5))
     found = choose(problem, 3, rays=1.0)[-1]
     assert found.weights == pytest.approx(np.full((3, 3), 1.0 / 3.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("count", [2, 5, 9])
+def test_gauss_is_exact_for_polynomials(count):
+    """Each channel to the degree count - 1, their sum X + Y + Z to twice that and one more."""
+    found = gauss(count)
+    full = colour.rec709_weights(GRID)
+    centred = (GRID - 560.0) / 200.0
+    for degree in range(count):
+        expected = full @ centred**degree
+        nodes = ((found.wavelengths - 560.0) / 200.0) ** degree
+        assert found.weights @ nodes == pytest.approx(expected, abs=1e-9)
+    weight = colour.xyz_weights(GRID).sum(axis=0)
+    to_xyz = np.linalg.lstsq(full.T, weight, rcond=None)[0]
+    degree = 2 * count - 1
+    found_sum = to_xyz @ found.weights @ ((found.wavelengths - 560.0) / 200.0) ** degree
+    # White is made white in the fourth digit, which their sum does not share.
+    assert found_sum == pytest.approx(weight @ centred**degree, rel=2e-3)
 
 
 def test_wavelengths_come_from_those_allowed():

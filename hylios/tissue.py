@@ -165,6 +165,11 @@ class Layer:
     survival: float = -1.0
     longest_path: float = np.inf
 
+    @property
+    def melanosome_depth(self) -> float:
+        """Optical depth of a melanosome, its survival being exp of less that; finite."""
+        return -float(np.log(np.clip(self.survival, 1e-300, 1.0)))
+
 
 @dataclass(frozen=True)
 class Stack:

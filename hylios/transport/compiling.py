@@ -15,7 +15,7 @@ from typing import Any
 
 from numba import njit
 
-_OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline":True}
+_OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline": True}
 
 
 def _digest_of_sources() -> str:

@@ -23,7 +23,7 @@ from hylios.transport.melanosome import drawn_body, overlap, survives_melanosome
 from hylios.transport.sampling import (
     azimuth,
     exponential_angle,
-    forward_angle,
+    forward_cosine,
     free_path,
     henyey_greenstein_cosine,
     rayleigh_cosine,
@@ -46,6 +46,7 @@ from hylios.transport.walk import (
     LOST,
     MELANIN,
     MELANOSOME,
+    MELANOSOME_DEPTH,
     MOST_DRAWS,
     MOST_EVENTS,
     RAYLEIGH,
@@ -54,7 +55,6 @@ from hylios.transport.walk import (
     SEMI_MAJOR,
     SEMI_MINOR,
     SURFACE,
-    SURVIVAL,
     TOP,
     UNDECIDED,
     distance_to_face,
@@ -64,7 +64,7 @@ from hylios.transport.walk import (
 )
 
 NONE, UNSEEN, SEEN = range(3)
-"""What is known of the melanosome met before in this traversal of a layer."""
+"""What is known of the melanosome or complex met before in this traversal of a layer."""
 
 
 @part
@@ -81,17 +81,17 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
         return SURFACE, -1, position, ray
 
     here, fibres_ahead = 0, True
+    # what was met before: where it was hit, along which ray and chord, its centre and axis
     before, before_hit, before_ray, before_chord = NONE, position, ray, 1.0
     before_centre, before_axis = position, ray
-    depth = free_path(state, 1.0)
+    depth, melanin_depth = free_path(state, 1.0), free_path(state, 1.0)
     for _ in range(MOST_EVENTS):
         others = layers[here, ABSORPTION] + layers[here, SCATTERING]
         if fibres_ahead:
             others += layers[here, RAYLEIGH]
         total = others + layers[here, ENCOUNTER]
         face = distance_to_face(layers, here, position, ray)
-        axis, point, centre = ray, ray, position
-        seen = False
+        half_axes = (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR])
         optics = (
             layers[here, MELANIN],
             melanin_index,
@@ -99,39 +99,50 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
             bent,
             layers[here, LONGEST_PATH],
         )
+        seen, axis, point, centre = False, ray, ray, position
         if depth < total * face:
             distance = depth / total
             depth = free_path(state, 1.0)
             event = _kind(layers, here, total * uniform(state))
-            if event == MELANOSOME:
-                hit = added(position, distance, ray)
-                if not _out_of_touch(layers, here, hit, before, before_hit):
-                    seen = True
-                    half_axes = (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR])
-                    if before == UNSEEN:
-                        before = SEEN
-                        before_axis, before_centre = _recalled(
-                            state,
-                            before_hit,
-                            before_ray,
-                            before_chord,
-                            half_axes,
-                            layers[here, COMPLEX_RADIUS],
-                            optics,
+            if event == MELANOSOME and not _out_of_touch(
+                layers, here, added(position, distance, ray), before, before_hit
+            ):
+                seen = True
+                # until one has room, or another attenuator's distance is shorter
+                other, path, event = -1.0, distance, INTERFACE
+                for _draw in range(MOST_DRAWS):
+                    radius = layers[here, COMPLEX_RADIUS]
+                    axis, point, offset = drawn_body(state, ray, half_axes, radius)
+                    centre = added(added(position, path, ray), 1.0, offset)
+                    room = fits(layers, here, centre, axis)
+                    if room and before != NONE:
+                        between = added(centre, -1.0, before_hit)
+                        size = 3.0 * max(radius, half_axes[1])
+                        if dot(between, between) < size * size:
+                            if before == UNSEEN:
+                                before = SEEN
+                                before_axis, before_centre = _recalled(
+                                    state, before_hit, before_ray, before_chord, half_axes, radius,
+                                    optics,
+                                )
+                            room = not overlap(
+                                centre, axis, before_centre, before_axis, half_axes, radius
+                            )
+                    if room:
+                        distance, event = path, MELANOSOME
+                        break
+                    if other < 0.0:
+                        other = distance + free_path(state, others)
+                    path = free_path(state, layers[here, ENCOUNTER])
+                    if path >= min(face, other):
+                        break
+                if event == INTERFACE:
+                    distance = face
+                    if other < face:
+                        distance = other
+                        event = _kind(
+                            layers, here, layers[here, ENCOUNTER] + others * uniform(state)
                         )
-                    distance, event, axis, point, centre = _placed(
-                        state,
-                        layers,
-                        here,
-                        position,
-                        ray,
-                        distance,
-                        face,
-                        others,
-                        before == SEEN,
-                        before_centre,
-                        before_axis,
-                    )
         else:
             distance, event = face, INTERFACE
             depth -= total * face
@@ -150,32 +161,26 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
         elif event == ABSORBER:
             return ABSORBED, here, position, ray
         elif event == MELANOSOME:
-            chord = 1.0
+            chord, survived = 1.0, True
             if layers[here, COMPLEX_RADIUS] > 0.0:
                 chord = -dot(point, ray) if seen else math.sqrt(1.0 - uniform(state))
                 count = melanosomes_met(layers, here, chord, by_diameter)
-                survived = uniform(state) < layers[here, SURVIVAL] ** count
+                melanin_depth -= count * layers[here, MELANOSOME_DEPTH]
             elif seen:
-                survived = survives_melanosome(
-                    state,
-                    ray,
-                    axis,
-                    point,
-                    (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]),
-                    optics,
-                )
+                survived = survives_melanosome(state, ray, axis, point, half_axes, optics)
             else:
-                survived = uniform(state) < layers[here, SURVIVAL]
-            if not survived:
+                melanin_depth -= layers[here, MELANOSOME_DEPTH]
+            if melanin_depth < 0.0 or not survived:
                 return ABSORBED_IN_MELANOSOME, here, position, ray
             before = SEEN if seen else UNSEEN
             before_hit, before_ray, before_chord = position, ray, chord
             before_centre, before_axis = centre, axis
             if scale > 0.0:
-                polar = (
-                    exponential_angle(state, scale) if exponential else forward_angle(state, scale)
-                )
-                ray = turned(state, ray, math.cos(polar))
+                if exponential:
+                    cosine = math.cos(exponential_angle(state, scale))
+                else:
+                    cosine = forward_cosine(state, scale)
+                ray = turned(state, ray, cosine)
         elif event == FIBRES:
             ray = turned(state, ray, rayleigh_cosine(state))
             fibres_ahead = every
@@ -199,7 +204,10 @@ def _kind(layers, here, drawn):
 
 @part
 def _out_of_touch(layers, here, hit, before, before_hit):
-    """Whether what is hit there can neither cross a face nor overlap what was met before."""
+    """Whether what is hit there can neither cross a face nor overlap what was met before.
+
+    Nothing reaches further than the size of a body from where it is hit.
+    """
     size = 2.0 * max(layers[here, SEMI_MAJOR], layers[here, COMPLEX_RADIUS])
     if hit[2] - layers[here, TOP] < size or layers[here, BOTTOM] - hit[2] < size:
         return False
@@ -217,36 +225,3 @@ def _recalled(state, hit, ray, chord, half_axes, radius, optics):
         axis, point, offset = drawn_body(state, ray, half_axes, radius)
         if survives_melanosome(state, ray, axis, point, half_axes, optics):
             return axis, added(hit, 1.0, offset)
-
-
-@part
-def _placed(
-    state, layers, here, position, ray, distance, face, others, seen, before_centre, before_axis
-):
-    """A melanosome first tried at a distance, and drawn again until it has room.
-
-    Returns distance and kind of the event, which is another where that comes first; and axis,
-    point hit and centre of the melanosome.
-    """
-    half_axes, radius = (
-        (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]),
-        layers[here, COMPLEX_RADIUS],
-    )
-    path, other = distance, -1.0
-    axis, point, centre = ray, ray, position
-    for _ in range(MOST_DRAWS):
-        axis, point, offset = drawn_body(state, ray, half_axes, radius)
-        centre = added(added(position, path, ray), 1.0, offset)
-        if fits(layers, here, centre, axis) and not (
-            seen and overlap(centre, axis, before_centre, before_axis, half_axes, radius)
-        ):
-            return path, MELANOSOME, axis, point, centre
-        if other < 0.0:
-            other = min(face, distance + free_path(state, others))
-        path = free_path(state, layers[here, ENCOUNTER])
-        if path >= other:
-            break
-    if other == face:
-        return face, INTERFACE, axis, point, centre
-    kind = _kind(layers, here, layers[here, ENCOUNTER] + others * uniform(state))
-    return other, kind, axis, point, centre

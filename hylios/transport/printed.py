@@ -20,7 +20,7 @@ from hylios.transport.melanosome import (
 )
 from hylios.transport.sampling import (
     exponential_angle,
-    forward_angle,
+    forward_cosine,
     free_path,
     henyey_greenstein_cosine,
     turned,
@@ -68,7 +68,7 @@ the parameter is accepted, gives way to the equivalent: it would not end in time
 def algorithm_1(state, scale):
     """Polar angle of a melanosome's scattering, drawn from [0, pi) until accepted."""
     if scale < LEAST_SCALE:
-        return forward_angle(state, scale)
+        return math.acos(forward_cosine(state, scale))
     peak = math.atan(scale)
     most = 1.0 / scale * math.exp(-peak / scale) * math.sin(peak)
     while True:

@@ -37,18 +37,20 @@ def free_path(state, coefficient):
 
 
 @part
-def forward_angle(state, scale):
-    """Polar angle of density proportional to exp(-x / scale) sin(x) on [0, pi) (algorithm 1).
+def forward_cosine(state, scale):
+    """Cosine of a polar angle of density exp(-x / scale) sin(x) on [0, pi) (algorithm 1).
 
-    The product of exp(-x / scale) and x is a gamma density, kept with probability sin(x) / x;
-    that is at least 1 - x^2 / 6, which mostly spares the sine.
+    In y = 2 sin(x / 2), for which cos(x) = 1 - y^2 / 2, it is y exp(-x / scale) on [0, 2): a gamma
+    density, kept with probability exp(-(x - y) / scale). Since x - y <= y^3 / 20 up to y = 1, the
+    arc sine is mostly spared.
     """
     while True:
-        angle = -scale * math.log((1.0 - uniform(state)) * (1.0 - uniform(state)))
-        if angle < math.pi:
-            spared = uniform(state)
-            if spared <= 1.0 - angle * angle / 6.0 or spared * angle <= math.sin(angle):
-                return angle
+        y = -scale * math.log((1.0 - uniform(state)) * (1.0 - uniform(state)))
+        drawn = scale * uniform(state)
+        if y < 1.0 and drawn <= scale - 0.05 * y * y * y:
+            return 1.0 - 0.5 * y * y
+        if y < 2.0 and drawn <= scale * math.exp((y - 2.0 * math.asin(0.5 * y)) / scale):
+            return 1.0 - 0.5 * y * y
 
 
 @part

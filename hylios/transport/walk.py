@@ -36,7 +36,7 @@ COLUMNS = (
     "rayleigh",
     "scattering",
     "anisotropy",
-    "survival",
+    "melanosome_depth",
     "longest_path",
 )
 (
@@ -52,7 +52,7 @@ COLUMNS = (
     RAYLEIGH,
     SCATTERING,
     ANISOTROPY,
-    SURVIVAL,
+    MELANOSOME_DEPTH,
     LONGEST_PATH,
 ) = range(len(COLUMNS))
 

@@ -44,7 +44,9 @@ def skin_quadrature(count: int) -> Quadrature:
 
     Chosen by `choose` (`python -m examples.simplifications.quadrature`) for skins of all
     colours; what it costs stands in docs/simplifications.md. It is not meant for other things
-    than skin: a colour that melanin and blood do not make may come out wrong.
+    than skin: a colour that melanin and blood do not make may come out wrong. (Skin without
+    melanin or blood, or with far too much of either, is within .3 at 8 wavelengths; blood that is
+    sulfhemoglobin to 6 %, .7.)
 
     Raises
     ------

@@ -1,5 +1,6 @@
 """Colour from few wavelengths: the shipped quadratures and how they are chosen."""
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -11,7 +12,7 @@ from examples.simplifications.variants import whole
 from hylios import colour
 from hylios.errors import InputError
 from hylios.quadrature import FEWEST, MOST, Colours, choose, skin_quadrature
-from hylios.specimen import SPECIMENS
+from hylios.specimen import EPIDERMIS, SPECIMENS
 
 COUNTS = range(FEWEST, MOST + 1)
 
@@ -56,7 +57,7 @@ def test_noise_is_no_more_than_with_61_wavelengths(count, held_out):
     assert np.all(variance(found.wavelengths, found.weights) < dense)
 
 
-@pytest.mark.parametrize(("count", "most"), [(4, 1.0), (6, 0.5), (8, 0.3), (16, 0.05)])
+@pytest.mark.parametrize(("count", "most"), [(4, 0.3), (6, 0.15), (8, 0.05), (16, 0.03)])
 def test_colours_of_skins_held_out(count, most, held_out):
     spectra, colours = held_out
     found = skin_quadrature(count)
@@ -65,6 +66,26 @@ def test_colours_of_skins_held_out(count, most, held_out):
     even = np.linspace(400.0, 700.0, count)
     between = np.array([np.interp(even, GRID, each) for each in spectra])
     assert missed.max() < colour.difference(colour.linear_rec709(even, between), colours).min()
+
+
+def test_skins_far_outside_those_chosen_by():
+    """No melanin, no blood, much blood, other haemoglobins: none is off by what an eye can see."""
+    usual = SPECIMENS["S3"]
+    forms = ("melanosomes", "colloidal_melanin")
+    skins = [
+        replace(usual, **{f"{layer}_{form}": 0.0 for layer in EPIDERMIS for form in forms}),
+        replace(usual, papillary_blood=0.0, reticular_blood=0.0),
+        replace(usual, papillary_blood=20.0, reticular_blood=20.0),
+        replace(usual, oxygenated_blood=0.0),
+        replace(usual, methemoglobin=30.0),
+        replace(usual, sulfhemoglobin=10.0),
+        replace(SPECIMENS["S4"], eumelanin_concentration=150.0),
+    ]
+    spectra = reflectances(skins, GRID, whole)
+    found = skin_quadrature(8)
+    colours = colour.linear_rec709(GRID, spectra)
+    missed = colour.difference(at(found.wavelengths, spectra) @ found.weights.T, colours)
+    assert missed.max() < 0.7
 
 
 def colours_of(reflectances, weights=None, wavelengths=None):
@@ -132,9 +153,10 @@ def test_gauss_is_exact_for_polynomials(count):
 
 
 def test_wavelengths_come_from_those_allowed():
-    allowed = (GRID >= 450.0) & (GRID <= 600.0)
-    for each in choose(skin_colours(10), 5, allowed=allowed):
-        assert np.all(np.isin(each.wavelengths, GRID[allowed]))
+    allowed = np.arange(12) % 3 == 1
+    spectra = np.random.default_rng(6).uniform(0.1, 0.9, (20, 12))
+    for each in choose(colours_of(spectra), 4, allowed=allowed):
+        assert np.all(np.isin(each.wavelengths, [1.0, 4.0, 7.0, 10.0]))
 
 
 def test_a_metric_is_the_difference_squared(held_out):
@@ -146,17 +168,17 @@ def test_a_metric_is_the_difference_squared(held_out):
 
 @pytest.mark.slow
 def test_the_shipped_table_is_as_good_as_a_new_choice():
-    """Mean squared difference over the skins that it was chosen by, within a tenth."""
-    skins = skin_colours()
-    goal = skins.reflectances @ skins.weights.T
+    """On skins that neither was chosen by; a choice by fewer skins should do no better."""
+    judges = skin_colours(40, seed=3)
+    goal = judges.reflectances @ judges.weights.T
 
     def error(found):
-        missed = at(found.wavelengths, skins.reflectances) @ found.weights.T - goal
-        return np.mean(np.einsum("si,sij,sj->s", missed, skins.metrics, missed))
+        missed = at(found.wavelengths, judges.reflectances) @ found.weights.T - goal
+        return np.mean(np.einsum("si,sij,sj->s", missed, judges.metrics, missed))
 
     allowed = (GRID >= 400.0) & (GRID <= 700.0)
-    for made in choose(skins, 8, allowed=allowed)[FEWEST - 1 :]:
-        assert error(skin_quadrature(made.wavelengths.size)) < 1.1 * error(made)
+    for made in choose(skin_colours(40, seed=2), 8, allowed=allowed)[FEWEST - 1 :]:
+        assert error(skin_quadrature(made.wavelengths.size)) < 1.2 * error(made)
 
 
 @pytest.mark.parametrize(

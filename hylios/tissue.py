@@ -253,18 +253,18 @@ def stack(
 
 def absorbers(
     specimen: Specimen,
-    wavelength: float,
+    wavelength: float | np.ndarray,
     *,
     known: Figures | None = None,
     chosen: Mapping[str, str] | None = None,
-) -> dict[str, dict[str, float]]:
-    """What absorbs in each layer at one wavelength in nm, melanosomes aside.
+) -> dict[str, dict[str, np.ndarray]]:
+    """What absorbs in each layer at wavelengths in nm, melanosomes aside.
 
     Returns
     -------
     dict
-        For each of `PARTS`, the coefficient in 1/cm of those of `ABSORBERS` that it holds. A
-        layer of a `stack` absorbs with their sum.
+        For each of `PARTS`, the coefficient in 1/cm, of the wavelength's shape, of those of
+        `ABSORBERS` that it holds. A layer of a `stack` absorbs with their sum.
 
     Raises
     ------
@@ -273,6 +273,7 @@ def absorbers(
     """
     known = known or figures()
     decided = readings(chosen)
+    blood = blood_absorbers(specimen, wavelength, known)
     own = {
         "corneum": _corneum_absorbers(specimen, wavelength, known),
         **{
@@ -280,8 +281,11 @@ def absorbers(
             for part in EPIDERMIS
         },
         **{
-            part: _dermal_absorbers(specimen, part, wavelength, known)
-            for part in ("papillary", "reticular")
+            part: {name: 0.01 * share * each for name, each in blood.items()}
+            for part, share in (
+                ("papillary", specimen.papillary_blood),
+                ("reticular", specimen.reticular_blood),
+            )
         },
     }
     return {
@@ -302,13 +306,15 @@ def refractive_index(specimen: Specimen, part: str, wavelength: float, known: Fi
     return float(getattr(specimen, f"{part}_refractive_index") + water * change)
 
 
-def melanin_coefficient(specimen: Specimen, wavelength: float, known: Figures) -> float:
+def melanin_coefficient(
+    specimen: Specimen, wavelength: float | np.ndarray, known: Figures
+) -> np.ndarray:
     """Absorption coefficient of melanin as it is inside the melanosomes (A.1)."""
     decadic = (
         known["eumelanin"].at(wavelength) * specimen.eumelanin_concentration
         + known["pheomelanin"].at(wavelength) * specimen.pheomelanin_concentration
     )
-    return float(decadic * np.log(10.0))
+    return decadic * np.log(10.0)
 
 
 def rayleigh_coefficient(wavelength: float, denominator: str = "printed") -> float:
@@ -345,13 +351,19 @@ def encounter_coefficient(
 
 
 def _molar(
-    known: Figures, name: str, wavelength: float, concentration: float, weight: float
-) -> float:
+    known: Figures,
+    name: str,
+    wavelength: float | np.ndarray,
+    concentration: float,
+    weight: float,
+) -> np.ndarray:
     """Absorption coefficient from a decadic molar extinction (A.2); mg/mL and g/mol."""
-    return float(known[name].at(wavelength) * np.log(10.0) * concentration / weight)
+    return known[name].at(wavelength) * np.log(10.0) * concentration / weight
 
 
-def blood_absorbers(specimen: Specimen, wavelength: float, known: Figures) -> dict[str, float]:
+def blood_absorbers(
+    specimen: Specimen, wavelength: float | np.ndarray, known: Figures
+) -> dict[str, np.ndarray]:
     """Absorption coefficients in 1/cm of what is in whole blood: the bracket of 4.2.
 
     The thesis prints the volume fraction of sulfhemoglobin beside the coefficient of
@@ -373,20 +385,22 @@ def blood_absorbers(specimen: Specimen, wavelength: float, known: Figures) -> di
 
 def blood_coefficient(specimen: Specimen, wavelength: float, known: Figures) -> float:
     """Absorption coefficient of whole blood in 1/cm: the sum of `blood_absorbers`."""
-    return sum(blood_absorbers(specimen, wavelength, known).values())
+    return float(sum(blood_absorbers(specimen, wavelength, known).values()))
 
 
 def _water_and_lipids(
-    specimen: Specimen, part: str, wavelength: float, known: Figures
-) -> dict[str, float]:
+    specimen: Specimen, part: str, wavelength: float | np.ndarray, known: Figures
+) -> dict[str, np.ndarray]:
     tissue = "epidermis" if part in EPIDERMIS else part
     return {
-        name: float(0.01 * known[name].at(wavelength) * getattr(specimen, f"{tissue}_{name}"))
+        name: 0.01 * known[name].at(wavelength) * getattr(specimen, f"{tissue}_{name}")
         for name in ("water", "lipids")
     }
 
 
-def _corneum_absorbers(specimen: Specimen, wavelength: float, known: Figures) -> dict[str, float]:
+def _corneum_absorbers(
+    specimen: Specimen, wavelength: float | np.ndarray, known: Figures
+) -> dict[str, np.ndarray]:
     """Keratin, urocanic acid and beta-carotene.
 
     Keratin's figure is a coefficient already (the thesis scales its absorptance over 4 um by
@@ -396,15 +410,19 @@ def _corneum_absorbers(specimen: Specimen, wavelength: float, known: Figures) ->
     acid = known["urocanic_acid"].at(wavelength) * np.log(10.0) * specimen.corneum_urocanic_acid
     content = specimen.corneum_beta_carotene
     return {
-        "keratin": float(known["keratin"].at(wavelength) * 0.01 * specimen.corneum_keratin),
-        "urocanic_acid": float(acid),
+        "keratin": known["keratin"].at(wavelength) * 0.01 * specimen.corneum_keratin,
+        "urocanic_acid": acid,
         "beta_carotene": _molar(known, "beta_carotene", wavelength, content, BETA_CAROTENE_WEIGHT),
     }
 
 
 def _epidermal_absorbers(
-    specimen: Specimen, part: str, wavelength: float, known: Figures, decided: Mapping[str, str]
-) -> dict[str, float]:
+    specimen: Specimen,
+    part: str,
+    wavelength: float | np.ndarray,
+    known: Figures,
+    decided: Mapping[str, str],
+) -> dict[str, np.ndarray]:
     """Beta-carotene, DNA and colloidal melanin.
 
     DNA is taken per concentration over 1 cm (its density is the whole skin's, section 3.1
@@ -417,19 +435,10 @@ def _epidermal_absorbers(
         colloidal *= SOLID_MELANIN / held if held > 0 else 0.0
     content = specimen.epidermis_beta_carotene
     return {
-        "dna": float(known["dna"].at(wavelength) * specimen.skin_dna),
+        "dna": known["dna"].at(wavelength) * specimen.skin_dna,
         "colloidal_melanin": colloidal * melanin_coefficient(specimen, wavelength, known),
         "beta_carotene": _molar(known, "beta_carotene", wavelength, content, BETA_CAROTENE_WEIGHT),
     }
-
-
-def _dermal_absorbers(
-    specimen: Specimen, part: str, wavelength: float, known: Figures
-) -> dict[str, float]:
-    """What blood brings (4.2)."""
-    share = 0.01 * getattr(specimen, f"{part}_blood")
-    blood = blood_absorbers(specimen, wavelength, known)
-    return {name: share * each for name, each in blood.items()}
 
 
 def _epidermal_layer(
@@ -466,5 +475,5 @@ def _epidermal_layer(
         semi_minor=semi_minor,
         semi_major=semi_major,
         complex_radius=radius,
-        melanin_absorption=melanin_coefficient(specimen, wavelength, known),
+        melanin_absorption=float(melanin_coefficient(specimen, wavelength, known)),
     )

@@ -307,23 +307,23 @@ def spectrum(
         subsurface=left[:, SUBSURFACE],
         absorbed=absorbed[:, 0],
         absorbed_in_melanosomes=absorbed[:, 1],
-        absorber_shares=np.array(
-            [_absorber_shares(specimen, each, known, chosen) for each in asked]
-        ),
+        absorber_shares=_absorber_shares(specimen, asked, known, chosen),
         exit_counts=np.array([each.exits for each in counts]),
     )
 
 
 def _absorber_shares(
     specimen: Specimen,
-    wavelength: float,
+    wavelengths: np.ndarray,
     known: Figures | None,
     chosen: Mapping[str, str] | None,
 ) -> np.ndarray:
-    """Of each layer's absorption, the share of each absorber (L, A); 0 where nothing absorbs."""
-    held = absorbers(specimen, wavelength, known=known, chosen=chosen)
-    table = np.array([[held[part].get(name, 0.0) for name in ABSORBERS] for part in PARTS])
-    whole = table.sum(axis=1, keepdims=True)
+    """Of each layer's absorption, each absorber's share (W, L, A); 0 where nothing absorbs."""
+    held = absorbers(specimen, wavelengths, known=known, chosen=chosen)
+    none = np.zeros(wavelengths.size)
+    table = np.array([[held[part].get(name, none) for name in ABSORBERS] for part in PARTS])
+    table = np.moveaxis(table, -1, 0)
+    whole = table.sum(axis=-1, keepdims=True)
     return np.divide(table, whole, out=np.zeros_like(table), where=whole > 0)
 
 

@@ -76,23 +76,6 @@ def test_diffuse_floor_spreads_light_as_geometry_says():
         assert abs((distance < radius).mean() - expected) < 4.0 * error
 
 
-@pytest.mark.parametrize("name", ["S1", "S3", "S4"])
-def test_tabulated_survival_is_the_walk_as_printed(name):
-    """Same reflectance and absorptance in melanosomes, six wavelengths at once (chi squared)."""
-    rays = 30_000
-    tabulated = spectrum(SPECIMENS[name], VISIBLE, rays=rays, seed=3)
-    printed = spectrum(SPECIMENS[name], VISIBLE, rays=rays, seed=4, as_printed=True)
-    for measure in ("total", "absorptance"):
-        share = getattr(printed, measure)
-        variance = 2.0 * share * (1.0 - share) / rays
-        squared = (getattr(tabulated, measure) - share) ** 2 / variance
-        assert squared.sum() < 27.9  # 1e-4 level of chi squared with 6 degrees of freedom
-    inside = printed.absorbed_in_melanosomes.sum(axis=1)
-    variance = 2.0 * inside * (1.0 - inside) / rays
-    squared = (tabulated.absorbed_in_melanosomes.sum(axis=1) - inside) ** 2 / variance
-    assert squared.sum() < 27.9
-
-
 def test_survival_without_index_step_is_that_of_straight_chords():
     """Mean of exp(-mu chord) over orientations (4.5) and evenly spread points, by quadrature."""
     aspect, thickness = 0.17 / 0.41, 0.4
@@ -154,41 +137,6 @@ def test_fresnel_limits():
     assert interfaces.fresnel(np.cos(brewster), 1.0, 1.5)[0] == pytest.approx(across / 2)
 
 
-@settings(max_examples=25, deadline=None)
-@given(
-    name=st.sampled_from(list(SPECIMENS)),
-    wavelength=st.floats(250.0, 2500.0),
-    angle=st.floats(0.0, 89.99),
-    content=st.floats(0.0, 85.0),
-    blood=st.floats(0.0, 100.0),
-    size=st.floats(0.01, 100.0),
-    roughness=st.floats(0.0, 10.0),
-    index=st.floats(1.0, 4.0),
-)
-def test_extremes_give_numbers(name, wavelength, angle, content, blood, size, roughness, index):
-    usual = SPECIMENS[name]
-    extreme = replace(
-        usual,
-        surface_fold_aspect_ratio=roughness,
-        basale_melanosomes=content,
-        papillary_blood=blood,
-        basale_thickness=usual.basale_thickness * size,
-        papillary_thickness=usual.papillary_thickness * size,
-        epidermis_refractive_index=index,
-    )
-    try:
-        layers = stack(extreme, wavelength)
-    except InputError as error:
-        assert "basale_thickness" in str(error)  # thinner than the melanosomes in it
-        return
-    traced = trace(with_survival(layers), rays=200, angle=angle)
-    ends = {SURFACE, SUBSURFACE, ABSORBED, ABSORBED_IN_MELANOSOME}
-    assert set(traced.outcome.tolist()) <= ends
-    assert not np.any(np.isin(traced.outcome, (TRANSMITTED, LOST)))
-    assert np.all(np.isfinite(traced.place))
-    assert np.allclose(np.linalg.norm(traced.direction, axis=1), 1.0, atol=1e-6)
-
-
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
@@ -219,19 +167,3 @@ def test_layers_too_thin_for_their_melanosomes_are_refused():
 
 def test_one_ray_is_not_certain():
     assert spectrum(SPECIMENS["S3"], [500.0], rays=1).standard_error[0] > 0.4
-
-
-def test_high_melanosome_content_is_tabulated_within_what_is_documented():
-    """S4 with 40 % melanosomes, where many are drawn again: within 2.5 % of what they absorb."""
-    crowded = replace(
-        SPECIMENS["S4"],
-        **{f"{layer}_melanosomes": 40.0 for layer in ("basale", "spinosum", "granulosum")},
-        eumelanin_concentration=10.0,
-    )
-    rays = 60_000
-    found, printed = (
-        spectrum(crowded, [600.0], rays=rays, as_printed=way).absorbed_in_melanosomes.sum()
-        for way in (False, True)
-    )
-    error = np.sqrt(2.0 * printed * (1.0 - printed) / rays)
-    assert abs(found - printed) < 0.025 * printed + 3.0 * error

@@ -52,7 +52,7 @@ CASES = [
 
 RAY_COUNTS = (10_000, 1_000)
 
-LINE_RAYS, PROFILE_RAYS = 20_000, 10_000
+LINE_RAYS, PROFILE_RAYS = 20_000, 30_000
 """Per wavelength: for a tan line, and for the widths of profiles."""
 
 LINE_WAVELENGTHS = 8

@@ -26,7 +26,8 @@ Measured on {date} ({machine}) in {minutes:.1f} minutes of processor time. The c
 parts come from the deterministic solver, so they have no noise; noise follows from the reflectance
 (how many rays come back is binomial), and for fewer rays it is drawn so. The walk itself, {rays:,}
 rays at each of 61 wavelengths, differs from the solver's colours of S1 to S4 by {walked:.2f} on
-average; chance alone would make it {chance:.2f}. Times are of one thread, the least of several
+average; chance alone would make it {chance:.2f}. What may be more is the solver's own error, which
+the full and the simplified model share. Times are of one thread, the least of several
 rounds of the same work, and ratios the mean of those on S1 to S4; on a busy machine they vary by
 some 10 % from run to run.
 
@@ -50,7 +51,8 @@ the chosen ones buy a third to a half. With the solver, time falls with their nu
 
 WIDTHS = """
 Burley's width d of a channel from some of the wavelengths, against all 61: mean difference over S1
-to S4, about 1 % of which is chance ({rays:,} rays per wavelength). A wavelength may have a
+to S4, of which chance is about 1 % where wavelengths are many and 2 % where they are few ({rays:,}
+rays per wavelength). A wavelength may have a
 negative weight in a channel. Taking its light away from the channel's profile is what colour does,
 and then few wavelengths do as well as all. Leaving negative weights out, as the table builder does
 now (the columns *above 0 only*), has few wavelengths miss the width, and moves the width itself
@@ -86,19 +88,19 @@ walk.
 
 NEEDS = """
 - **Rayleigh scattering is needed by every scene**: without it skin is off by 7 and more.
-- **Melanosomes as particles** matter to 1 to 3 and cost the walk two thirds of its time. Where a
-  look is all that is wanted, as for a crowd, they may be dissolved; a character in close-up needs
-  them.
-- **Three epidermal layers**: one layer misses by .7 on average and buys a quarter of the
+- **Melanosomes as particles** take the walk two thirds of its time; colour is off by 1 to 3 without
+  them. Where a look is all that is wanted, as for a crowd, they may be dissolved; a character in
+  close-up needs them.
+- **Three epidermal layers**: one layer misses by .7 on average and buys a third of the
   walk. Spreading melanin over the layers is worst on a tan, which moves it between them, and buys
   nothing.
-- **Dysfunctional haemoglobins and carotene** cannot be seen, but buy next to nothing.
+- **Dysfunctional haemoglobins and carotene** cannot be seen; leaving them out buys next to nothing.
 - **The angle of incidence**, 0 or 8 degrees, cannot be seen either.
 - **Wavelengths**: eight chosen ones cannot be told from 61. More than that no scene needs; five
   are good enough for a preview.
 - **Rays**: noise falls with the root of their number, and is what most of the time goes into. The
   solver has none: colours should come from it, and the walk give the profile, for which 10,000 rays
-  at each of eight wavelengths are enough (2 % of the width).
+  at each of eight wavelengths are enough (3 % of the width).
 - **The profile** is needed wherever the line of a tan is seen from near: it costs more than 1
   within 2 to 3 mm of the line. Where a pixel is wider than that, it is not.
 - **Ultraviolet and infrared bands** only where they are rendered.

@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The matrices here are small: threads of BLAS would cost them ten times their own time.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: demo figures test test-all lint bench package environment
+.PHONY: demo figures simplifications test test-all lint bench package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
@@ -29,6 +29,11 @@ test-all: lint
 
 bench: environment
 	@$(BIN)/python -m examples.bench
+
+# Measures what each part of the light model costs and is worth, and writes the page in docs/.
+# One thread of linear algebra: its threads would count as work while they wait.
+simplifications: environment
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m examples.simplifications
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

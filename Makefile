@@ -33,7 +33,7 @@ bench: environment
 # Measures what each part of the light model costs and is worth, and writes the page in docs/.
 # One thread of linear algebra: its threads would count as work while they wait.
 simplifications: environment
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/python -m examples.simplifications
+	@$(BIN)/python -m examples.simplifications
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

@@ -4,5 +4,6 @@ The model is the random walk's of `hylios.transport`, averaged instead of drawn;
 """
 
 from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.adding.spectrum import Spectrum, spectrum
 
-__all__ = ["NODES", "Reflectance", "solve"]
+__all__ = ["NODES", "Reflectance", "Spectrum", "solve", "spectrum"]

@@ -20,7 +20,7 @@ from numpy.polynomial.legendre import leggauss
 LEAST_NODES = 3
 """Nodes of a segment, however narrow."""
 
-CROWDING = 0.06
+CROWDING = 0.04
 """Smaller is more nodes at grazing angles, of which cosines down to a few thousandths matter."""
 
 
@@ -64,13 +64,16 @@ class Directions:
 
 
 def node_counts(bounds: np.ndarray, nodes: int) -> tuple[int, ...]:
-    """Nodes of each segment: about `nodes` in all, more where narrow ones need their least.
+    """Nodes of each segment, about `nodes` in all but for the least that narrow ones have.
 
-    Each gets its share by the square root of its width in q^2.
+    There are only three classes of width, so that for all that skin's refractive indices can be
+    at any wavelength counts are the same: a change of them is a step, if a small one, in what is
+    found.
     """
-    lengths = np.sqrt(np.diff(bounds))
-    shares = np.maximum(LEAST_NODES, np.round(nodes * lengths / lengths.sum()))
-    return tuple(int(share) for share in shares)
+    widths = np.sqrt(np.diff(bounds))
+    shares = np.select([widths > 0.75, widths > 0.35], [7.0, 5.0], 2.0)
+    counts = np.round(nodes * shares / shares.sum())
+    return tuple(max(LEAST_NODES, int(count)) for count in counts)
 
 
 def interpolation(made: Directions, squared: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -164,9 +167,15 @@ def lagrange(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
 
 
 @lru_cache(maxsize=1024)
+def legendre_roots(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights of Gauss's integral from -1 to 1, (count,) each."""
+    return leggauss(count)
+
+
+@lru_cache(maxsize=1024)
 def _roots(count: int, crowded: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x, root, and weights of an integral over root of the points of a segment, (count,)."""
-    place, weight = leggauss(count)
+    place, weight = legendre_roots(count)
     half = 0.5 * (1.0 + place)
     if not crowded:
         return place, half, 0.5 * weight

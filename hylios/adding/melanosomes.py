@@ -21,7 +21,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from hylios.errors import InputError
 from hylios.tissue import Layer
 
 USUAL_COSINE = 0.85
@@ -34,31 +33,22 @@ STEPS = 64
 """Distances tried for each."""
 
 
-def encounters(layer: Layer, by_diameter: bool) -> tuple[float, float]:
+def encounters(layer: Layer, survival: float, by_diameter: bool) -> tuple[float, float]:
     """Rate in 1/cm at which light meets melanosomes or complexes, and survival of one encounter.
 
     Parameters
     ----------
+    survival : float
+        Of one melanosome.
     by_diameter : bool
         Whether every ray meets as many melanosomes of a complex as its diameter holds.
-
-    Raises
-    ------
-    InputError
-        If the layer does not say how many survive a melanosome.
     """
-    if not 0.0 <= layer.survival <= 1.0:
-        raise InputError(
-            f"survival of a layer with melanosomes is {layer.survival:g}; allowed is 0 to 1, as "
-            "tabulated."
-        )
     if layer.complex_radius > 0.0:
         size, dead, extent, offset = layer.complex_radius, *_pair(1.0)
         held = layer.complex_radius / layer.semi_minor
-        survival = _survival_of_complex(layer.survival, held, by_diameter)
+        survival = _survival_of_complex(survival, held, by_diameter)
     else:
         size, dead, extent, offset = layer.semi_minor, *_pair(layer.semi_minor / layer.semi_major)
-        survival = layer.survival
     through = np.exp(-layer.encounter * layer.thickness / USUAL_COSINE)
     across = offset * USUAL_COSINE
     closed = size * ((extent - across) + (extent + across) * through) / layer.thickness

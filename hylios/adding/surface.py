@@ -4,19 +4,19 @@ The rules of `hylios.transport.interfaces`, averaged over the surface's normals 
 """
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
-from hylios.adding.directions import Directions, interpolation
+from hylios.adding.directions import Directions, interpolation, legendre_roots
 
 FLAT = 1e-6
 """Roughness up to which a surface is taken as flat."""
 
-TILTS, TURNS = 20, 4
-"""Normals over which the rough surface is averaged: polar angles, and azimuths of each part of a
-half circle in which the same happens to a ray."""
+TILTS, TURNS = 4, 5
+"""Normals over which the rough surface is averaged: polar angles, and azimuths, of each part of
+their ranges in which the same happens to a ray. With many nodes more azimuths are taken, for light
+that grazes: nearly as many as it has nodes."""
 
-FINER = 2
-"""Times as many of each where light comes in: one direction, where all starts."""
+ENTRY_TILTS, ENTRY_TURNS = 5, 4
+"""The same for light that comes in."""
 
 
 def fresnel(cosine, index_from, index_to) -> tuple[np.ndarray, np.ndarray]:
@@ -51,8 +51,9 @@ def from_inside(made: Directions, segments: int, above: float, roughness: float)
         reflectance, _ = fresnel(cosine, index, above)
         return np.diag(reflectance), 1.0 - reflectance
     edges = np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
+    turns = max(TURNS, made.counts[segments - 1] - 1)
     reflected, crossed, back, _ = _rough(
-        cosine, index / above, roughness, edges, np.zeros(1), (TILTS, TURNS)
+        cosine, index / above, roughness, edges, np.zeros(1), (TILTS, turns)
     )
     matrix = interpolation(made, squared * (1.0 - back**2), reflected)
     return matrix[:, :count], crossed.sum(axis=1)
@@ -76,7 +77,7 @@ def from_outside(
         return reflectance, interpolation(made, place[:, None], weight[:, None])[:, :count]
     edges = np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
     reflected, crossed, _, beyond = _rough(
-        cosine, above / index, roughness, np.zeros(1), edges, (FINER * TILTS, FINER * TURNS)
+        cosine, above / index, roughness, np.zeros(1), edges, (ENTRY_TILTS, ENTRY_TURNS)
     )
     rows = interpolation(made, squared * (1.0 - beyond**2), crossed)
     return reflected.sum(axis=1), rows[:, :count]
@@ -106,10 +107,8 @@ def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):
     back, beyond : (N, P) arrays
         Cosines of the rays that are reflected and that have crossed.
     """
+    psi, weight = _tilts(cosine, ratio, roughness, back_edges, beyond_edges, normals[0])
     cosine = cosine[:, None, None, None]  # rays, tilts, parts of the half circle, azimuths
-    # tan(tilt) = roughness tan(psi), in which 4.8 is smooth
-    psi, weight = (0.25 * np.pi * each[:, None, None] for each in leggauss(normals[0]))
-    psi = psi + 0.25 * np.pi
     size = np.hypot(np.cos(psi), roughness * np.sin(psi))
     upright, tilted = np.cos(psi) / size, roughness * np.sin(psi) / size
     # facing = level - swing cos(turn)
@@ -147,13 +146,46 @@ def _edges(cosine, ratio, upright, back, beyond):
 
 
 def _turns(level, swing, edges, count):
-    """Azimuths of normals and their weights, (N, T, parts, count): cut at the edges."""
+    """Azimuths of normals and their weights, (N, T, parts, count), cut at the edges."""
     turned = np.arccos(np.clip((level - edges) / np.maximum(swing, 1e-12), -1.0, 1.0))
     last = np.full_like(turned[:, :, :1], np.pi)
     turned = np.concatenate([np.sort(turned, axis=2), last], axis=2)
-    place, weight = leggauss(count)
+    return _between(turned[..., 0], count)
+
+
+def _tilts(cosine, ratio, roughness, back, beyond, count):
+    """Polar angles of normals and their weights, (N, T, 1, 1), cut like the azimuths.
+
+    An edge is met at some azimuth from the tilt on at which it is met in the plane of incidence.
+    The angle is psi, with tan(tilt) = roughness tan(psi), in which 4.8 is smooth.
+    """
+    angle = np.arccos(cosine)[:, None]
+    total = np.arcsin(min(1.0, 1.0 / ratio))
+    back, beyond = np.arccos(back), np.arccos(beyond)
+    across, along = ratio * np.sin(angle), ratio * np.cos(angle) - np.cos(beyond)
+    tilts = [
+        0.5 * np.pi - angle,
+        np.abs(total - angle),
+        total + angle,
+        0.5 * np.abs(back - angle),
+        0.5 * (back + angle),
+        np.arctan2(np.abs(across - np.sin(beyond)), np.abs(along)),
+        np.arctan2(across + np.sin(beyond), np.abs(along)),
+    ]
+    tilts = np.clip(np.concatenate(tilts, axis=1), 0.0, 0.5 * np.pi)
+    edges = np.sort(np.arctan2(np.sin(tilts), roughness * np.cos(tilts)), axis=1)
+    first = np.zeros_like(angle)
+    edges = np.concatenate([first, edges, first + 0.5 * np.pi], axis=1)
+    psi, weight = _between(edges, count)
+    shape = (cosine.size, -1, 1, 1)
+    return psi.reshape(shape), weight.reshape(shape)
+
+
+def _between(edges, count):
+    """Points and weights of an integral in `count` points between edges on the last axis."""
+    place, weight = legendre_roots(count)
     half = 0.5 * (1.0 + place)
     # crowding at the edges, some of which are roots of what is averaged
     place, weight = half * half * (3.0 - 2.0 * half), 3.0 * weight * half * (1.0 - half)
-    length = np.diff(turned, axis=2)
-    return turned[:, :, :-1] + length * place, length * weight
+    length = np.diff(edges)[..., None]
+    return edges[..., :-1, None] + length * place, length * weight

@@ -25,7 +25,6 @@ from hylios.physiology import PHYSIOLOGY
 from hylios.specimen import EPIDERMIS, Specimen, parameters
 from hylios.spectra import Figures
 from hylios.tissue import stack
-from hylios.transport.survival import with_survival
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -309,7 +308,7 @@ def _reflectances(
 ) -> np.ndarray:
     """Total reflectance (S, W), without noise."""
     stacks = [
-        with_survival(stack(each, wavelength, known=known, chosen=chosen))
+        stack(each, wavelength, known=known, chosen=chosen)
         for each in specimens
         for wavelength in wavelengths
     ]

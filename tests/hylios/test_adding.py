@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
+from scipy.optimize import brentq
 from scipy.special import expn
 
 from hylios import tissue
@@ -15,7 +16,7 @@ from hylios.adding import solve
 from hylios.adding import spectrum as spectrum_without_noise
 from hylios.adding.survival import survival_in_melanosome
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS, with_values
+from hylios.specimen import SPECIMENS
 from hylios.tissue import Layer, Stack, stack
 from hylios.transport.interfaces import fresnel
 from hylios.transport.simulate import spectrum, trace
@@ -207,14 +208,15 @@ def test_seldom_met_melanosomes_absorb_at_their_rate():
 def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part, survival):
     """One layer alone, straight light: what the walk's slab lets through, within 4 standard errors
     and 1 % of its extinction, which `hylios.adding.melanosomes` gives as its own error."""
-    layer = replace(
-        stack(SPECIMENS[name], 550.0).layers[part],
-        absorption=0.0,
-        refractive_index=1.0,
-        survival=survival,
-    )
-    rays = 50_000
-    slab = Stack((layer,))
+    layer = replace(stack(SPECIMENS[name], 550.0).layers[part], absorption=0.0)
+
+    def off(exponent):
+        inside = replace(layer, melanin_absorption=np.exp(exponent))
+        return survival_in_melanosome(inside, 1.7) - survival
+
+    layer = replace(layer, melanin_absorption=np.exp(brentq(off, 0.0, 20.0)))
+    rays, index = 50_000, layer.refractive_index
+    slab = Stack((layer,), index_above=index, index_below=index, melanin_index=1.7)
     found = solve([slab], 30.0).transmittance[0]
     walked = (trace(slab, rays=rays, angle=30.0).outcome == TRANSMITTED).mean()
     error = np.sqrt(walked * (1.0 - walked) / rays) / walked
@@ -263,7 +265,7 @@ def test_more_pigment_is_darker_and_smoothly_so(name, values):
         each
         for value in values
         for each in spectrum_without_noise(
-            with_values(SPECIMENS["S3"], {name: value}), wavelengths
+            replace(SPECIMENS["S3"], **{name: value}), wavelengths
         ).total
     ]
     totals = np.reshape(found, (values.size, -1))
@@ -276,7 +278,7 @@ def test_reflectance_is_smooth_in_the_surface(name):
     """Over steps of 2 % third differences, where noise would be, are far below first ones."""
     usual = getattr(SPECIMENS["S1"], name)
     found = [
-        spectrum_without_noise(with_values(SPECIMENS["S1"], {name: each}), [600.0]).total[0]
+        spectrum_without_noise(replace(SPECIMENS["S1"], **{name: each}), [600.0]).total[0]
         for each in usual * np.linspace(0.95, 1.05, 6)
     ]
     assert np.abs(np.diff(found, n=3)).max() < 0.05 * np.abs(np.diff(found)).max()
@@ -326,6 +328,6 @@ def test_stacks_it_cannot_solve_are_refused():
     ]:
         with pytest.raises(InputError, match=sentence):
             solve([Stack((layer,))])
-    slim = with_values(SPECIMENS["S4"], {"melanosome_minor_axis": 0.05})
+    slim = replace(SPECIMENS["S4"], melanosome_minor_axis=0.05)
     with pytest.raises(InputError, match="minor to major axis of melanosomes is 0.07"):
         spectrum_without_noise(slim, [500.0])

@@ -169,6 +169,11 @@ class Layer:
     longest_path: float = np.inf
 
     @property
+    def melanosomes_across(self) -> float:
+        """Melanosomes along the diameter of a complex, n_m of section 4.2.1; 0 if single."""
+        return self.complex_radius / self.semi_minor if self.complex_radius > 0.0 else 0.0
+
+    @property
     def melanosome_depth(self) -> float:
         """Optical depth of a melanosome, its survival being exp of less that; finite."""
         return -float(np.log(np.clip(self.survival, 1e-300, 1.0)))

@@ -27,7 +27,7 @@ def add_to(commands) -> None:
     parser.add_argument(
         "--as-printed",
         action="store_true",
-        help="walk every path inside a melanosome (same model, slower)",
+        help="walk as the thesis prints it, loop by loop (same model, slower)",
     )
 
 

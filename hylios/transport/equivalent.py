@@ -122,7 +122,12 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
                             if before == UNSEEN:
                                 before = SEEN
                                 before_axis, before_centre = _recalled(
-                                    state, before_hit, before_ray, before_chord, half_axes, radius,
+                                    state,
+                                    before_hit,
+                                    before_ray,
+                                    before_chord,
+                                    half_axes,
+                                    radius,
                                     optics,
                                 )
                             room = not overlap(

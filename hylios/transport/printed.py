@@ -58,8 +58,8 @@ from hylios.transport.walk import (
     melanosomes_met,
 )
 
-LEAST_SCALE = 1e-4
-"""Parameter of algorithm 1 in radians, .006 degrees, below which its loop, of which a share near
+LEAST_SCALE = 1e-3
+"""Parameter of algorithm 1 in radians, .06 degrees, below which its loop, of which a share near
 the parameter is accepted, gives way to the equivalent: it would not end in time just below 1300 nm.
 """
 

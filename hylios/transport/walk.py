@@ -37,6 +37,7 @@ COLUMNS = (
     "rayleigh",
     "scattering",
     "anisotropy",
+    "melanosomes_across",
     "melanosome_depth",
     "longest_path",
 )
@@ -53,6 +54,7 @@ COLUMNS = (
     RAYLEIGH,
     SCATTERING,
     ANISOTROPY,
+    ACROSS,
     MELANOSOME_DEPTH,
     LONGEST_PATH,
 ) = range(len(COLUMNS))
@@ -150,5 +152,4 @@ def fits(layers, here, centre, axis):
 @part
 def melanosomes_met(layers, here, chord, by_diameter):
     """Melanosomes that a ray meets in a complex, given its chord in diameters."""
-    across = 1.0 if by_diameter else chord
-    return int(across * layers[here, COMPLEX_RADIUS] / layers[here, SEMI_MINOR])
+    return int(layers[here, ACROSS] * (1.0 if by_diameter else chord))

@@ -13,7 +13,7 @@ from scipy.special import expn
 
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
-from hylios.tissue import Layer, Stack, stack
+from hylios.tissue import ABSORBERS, PARTS, Layer, Stack, absorbers, stack
 from hylios.transport import interfaces
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import path_lengths, survival
@@ -96,7 +96,7 @@ def test_results_do_not_depend_on_threads_or_on_other_wavelengths():
     one = spectrum(SPECIMENS["S3"], VISIBLE, rays=40_000, threads=1)
     two = spectrum(SPECIMENS["S3"], VISIBLE, rays=40_000, threads=2)
     alone = spectrum(SPECIMENS["S3"], VISIBLE[3:4], rays=40_000)
-    for measure in ("surface", "subsurface", "absorbed", "exit_counts"):
+    for measure in ("surface", "subsurface", "absorbed", "absorbed_in_melanosomes", "exit_counts"):
         assert np.array_equal(getattr(one, measure), getattr(two, measure))
         assert np.array_equal(getattr(one, measure)[3], getattr(alone, measure)[0])
     other = spectrum(SPECIMENS["S3"], VISIBLE, rays=40_000, seed=2)
@@ -109,6 +109,41 @@ def test_every_ray_is_accounted_for(name):
     assert np.allclose(result.total + result.absorptance, 1.0, rtol=0, atol=1e-12)
     assert np.allclose(result.exit_counts.sum(axis=1) / result.rays, result.subsurface, atol=1e-12)
     assert np.all(result.absorbed_in_melanosomes[:, [0, 4, 5]] == 0)
+
+
+@pytest.mark.parametrize("name", list(SPECIMENS))
+@pytest.mark.parametrize("colloidal", ["as_in_melanosomes", "solid"])
+def test_a_layer_absorbs_with_the_sum_of_its_absorbers(name, colloidal):
+    wavelengths = np.array([250.0, 365.0, 550.0, 970.0, 2500.0])
+    chosen = {"colloidal_melanin": colloidal}
+    held = absorbers(SPECIMENS[name], wavelengths, chosen=chosen)
+    assert tuple(held) == PARTS
+    assert {each for part in held.values() for each in part} == set(ABSORBERS)
+    for row, wavelength in enumerate(wavelengths):
+        layers = stack(SPECIMENS[name], wavelength, chosen=chosen).layers
+        for part, layer in zip(PARTS, layers, strict=True):
+            assert layer.absorption == pytest.approx(sum(each[row] for each in held[part].values()))
+
+
+def test_light_is_absorbed_by_layer_and_absorber():
+    """Who takes it where, at wavelengths where one absorber rules; and all of it adds up."""
+    found = spectrum(SPECIMENS["S3"], [280.0, 420.0, 577.0, 1450.0], rays=4_000)
+    by = found.absorbed_by
+    assert by.shape == (4, len(PARTS), len(ABSORBERS))
+    assert np.allclose(by.sum(axis=2), found.absorbed, rtol=1e-12, atol=0.0)
+    ended = found.total + by.sum(axis=(1, 2)) + found.absorbed_in_melanosomes.sum(axis=1)
+    assert np.allclose(ended, 1.0, rtol=0.0, atol=1e-12)
+
+    def ruling(row, part):
+        return ABSORBERS[int(np.argmax(by[row, PARTS.index(part)]))]
+
+    assert ruling(1, "spinosum") == "colloidal_melanin"
+    assert ruling(2, "reticular") == "oxyhemoglobin"
+    assert {ruling(3, part) for part in PARTS} == {"water"}
+    for absent in ("keratin", "urocanic_acid"):
+        assert not by[:, 1:, ABSORBERS.index(absent)].any()
+    assert not by[:, PARTS.index("papillary") :, ABSORBERS.index("dna")].any()
+    assert by[0, 1:4, ABSORBERS.index("dna")].all()
 
 
 def test_surface_reflects_what_fresnel_says():

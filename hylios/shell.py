@@ -11,8 +11,8 @@ import numpy as np
 from hylios.errors import InputError, require_whole
 from hylios.specimen import Specimen, parameters, specimen, with_values
 from hylios.specimen_file import read_specimen
-from hylios.spectra import Figures, figures, replaced
-from hylios.tissue import readings
+from hylios.spectra import Figures, estimates_within, figures, replaced
+from hylios.tissue import FIGURES, readings
 
 MOST_WAVELENGTHS = 10_000
 
@@ -70,6 +70,12 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
         action="store_true",
         help="take parameters outside their physiological range",
     )
+
+
+def note_estimates(known: Figures, wavelengths: np.ndarray) -> None:
+    """Say on standard error which spectral figures are estimates at some wavelength in nm."""
+    for line in estimates_within(known, FIGURES, wavelengths):
+        print(f"note: {line}", file=sys.stderr)
 
 
 def add_skin_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,7 +1,6 @@
 """`hylios brdf`: where a specimen reflects light of one wavelength and incidence, as CSV."""
 
 import argparse
-import sys
 
 import numpy as np
 
@@ -9,11 +8,10 @@ from hylios.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
+    note_estimates,
     print_table,
     require_work,
 )
-from hylios.spectra import estimates_within
-from hylios.tissue import FIGURES
 
 DESCRIPTION = """\
 One row for each bin of directions: its middle in polar angle (0 is the skin's normal) and azimuth
@@ -57,8 +55,7 @@ def run(asked: argparse.Namespace) -> None:
         known=known,
         chosen=chosen,
     )
-    for line in estimates_within(known, FIGURES, np.array([asked.wavelength])):
-        print(f"note: {line}", file=sys.stderr)
+    note_estimates(known, np.array([asked.wavelength]))
     polar, azimuth = np.meshgrid(
         _middles(result.polar_edges), _middles(result.azimuth_edges), indexing="ij"
     )

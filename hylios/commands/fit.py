@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.shell import add_skin_arguments, chosen_skin, number, wavelength_range
+from hylios.shell import add_skin_arguments, chosen_skin, note_estimates, number, wavelength_range
 from hylios.specimen_file import specimen_toml
 from hylios.spectrum_file import read_spectrum
 
@@ -40,7 +40,7 @@ def add_to(commands) -> None:
 
 def run(asked: argparse.Namespace) -> None:
     """Fit and print."""
-    from hylios.fit import USUAL, fit_colour, fit_spectrum  # scipy
+    from hylios.fit import COLOUR_WAVELENGTHS, USUAL, fit_colour, fit_spectrum  # scipy
 
     start, known, chosen = chosen_skin(asked)
     light = {
@@ -50,6 +50,7 @@ def run(asked: argparse.Namespace) -> None:
         "chosen": chosen,
     }
     if asked.srgb is not None:
+        wavelengths = COLOUR_WAVELENGTHS
         found = fit_colour(start, _colour(asked.srgb), **light)
         target = f"the colour {asked.srgb}"
         error = f"{np.linalg.norm(found.residual):.2f} off in L*a*b* (CIE76)"
@@ -60,6 +61,7 @@ def run(asked: argparse.Namespace) -> None:
         found = fit_spectrum(start, wavelengths, reflectance, **light)
         target = f"{measured.name}, {asked.column}, at {wavelengths.size} wavelengths"
         error = f"root mean square error {found.rmse:.4f}"
+    note_estimates(known, wavelengths)
     for line in (f"Fitted to {target}: {error}.", *found.remarks()):
         print(f"# {line}")
     print(specimen_toml(replace(found.specimen, name=f"{start.name} fitted")), end="")

@@ -9,11 +9,10 @@ from hylios.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
+    note_estimates,
     print_table,
     require_work,
 )
-from hylios.spectra import estimates_within
-from hylios.tissue import FIGURES
 
 DESCRIPTION = """\
 One row for each ring around the point where a pencil beam comes in: its inner and outer radius in
@@ -61,8 +60,7 @@ def run(asked: argparse.Namespace) -> None:
         chosen=chosen,
     )
     width, error = result.burley_width, result.burley_width_error
-    for line in estimates_within(known, FIGURES, np.array([asked.wavelength])):
-        print(f"note: {line}", file=sys.stderr)
+    note_estimates(known, np.array([asked.wavelength]))
     if asked.fit:
         row = {
             "wavelength_nm": asked.wavelength,

@@ -1,17 +1,20 @@
 """`hylios swatch`: the colours of spectra side by side, as PNG."""
 
 import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 
 from hylios.errors import InputError, require_range, require_whole
 from hylios.files import require_target
-from hylios.shell import add_skin_arguments, add_work_arguments, chosen_skin, require_work
-from hylios.spectra import estimates_within
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    note_estimates,
+    require_work,
+)
 from hylios.spectrum_file import NamedSpectrum, read_spectra
-from hylios.tissue import FIGURES
 
 DESCRIPTION = """\
 One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.
@@ -80,6 +83,5 @@ def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
         known=known,
         chosen=chosen,
     )
-    for line in estimates_within(known, FIGURES, result.wavelengths):
-        print(f"note: {line}", file=sys.stderr)
+    note_estimates(known, result.wavelengths)
     return NamedSpectrum(specimen.name, result.wavelengths, result.total, result.standard_error)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.quadrature import skin_quadrature
 from hylios.shell import add_skin_arguments, chosen_skin, note_estimates, number, wavelength_range
 from hylios.specimen_file import specimen_toml
 from hylios.spectrum_file import read_spectrum
@@ -40,7 +41,7 @@ def add_to(commands) -> None:
 
 def run(asked: argparse.Namespace) -> None:
     """Fit and print."""
-    from hylios.fit import COLOUR_WAVELENGTHS, USUAL, fit_colour, fit_spectrum  # scipy
+    from hylios.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
 
     start, known, chosen = chosen_skin(asked)
     light = {
@@ -50,7 +51,7 @@ def run(asked: argparse.Namespace) -> None:
         "chosen": chosen,
     }
     if asked.srgb is not None:
-        wavelengths = COLOUR_WAVELENGTHS
+        wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
         found = fit_colour(start, _colour(asked.srgb), **light)
         target = f"the colour {asked.srgb}"
         error = f"{np.linalg.norm(found.residual):.2f} off in L*a*b* (CIE76)"

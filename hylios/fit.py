@@ -20,7 +20,7 @@ from scipy.optimize import least_squares
 from threadpoolctl import threadpool_limits
 
 from hylios.adding import solve
-from hylios.errors import InputError
+from hylios.errors import InputError, require_range
 from hylios.physiology import PHYSIOLOGY
 from hylios.quadrature import skin_quadrature
 from hylios.specimen import EPIDERMIS, Specimen, parameters
@@ -318,6 +318,11 @@ def _reflectances(
     return solve(stacks, angle).total.reshape(len(specimens), -1)
 
 
+def _require_shares(name: str, values: np.ndarray) -> None:
+    for each in values:
+        require_range(name, float(each), 0.0, 1.0)
+
+
 def fit_spectrum(
     start: Specimen,
     wavelengths: np.ndarray,
@@ -340,13 +345,22 @@ def fit_spectrum(
     Raises
     ------
     InputError
-        As `fit`; and if a wavelength or the angle is out of range.
+        As `fit`; and if the arrays do not agree, a reflectance is not 0 to 1, or a wavelength or
+        the angle is out of range.
     """
+    wavelengths = np.asarray(wavelengths, dtype=float)
+    reflectance = np.asarray(reflectance, dtype=float)
+    if wavelengths.ndim != 1 or not wavelengths.size or reflectance.shape != wavelengths.shape:
+        raise InputError(
+            f"wavelengths and reflectance have shapes {wavelengths.shape} and {reflectance.shape}; "
+            "expected one row of equal length, not empty."
+        )
+    _require_shares("a reflectance to fit", reflectance)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
         return _reflectances(specimens, wavelengths, angle, known, chosen)
 
-    return fit(start, observe, np.asarray(reflectance), SPECTRAL_UNCERTAINTY, free)
+    return fit(start, observe, reflectance, SPECTRAL_UNCERTAINTY, free)
 
 
 def fit_colour(
@@ -368,8 +382,12 @@ def fit_colour(
     Raises
     ------
     InputError
-        As `fit`; and if the angle is out of range.
+        As `fit`; and if the colour is not three numbers from 0 to 1, or the angle is out of range.
     """
+    srgb = np.asarray(srgb, dtype=float)
+    if srgb.shape != (3,):
+        raise InputError(f"a colour to fit has shape {srgb.shape}; expected (3,).")
+    _require_shares("a part of a colour to fit", srgb)
     from hylios.colour import lab, linear_of_srgb  # colour-science takes a second
 
     few = skin_quadrature(COLOUR_COUNT)

@@ -11,6 +11,7 @@ import numpy as np
 from hylios.errors import InputError, require_range, require_whole
 
 LONGEST_HOURS = 24 * 366 * 100
+LARGEST_DOSE = 1e12  # SED; far beyond any, and its sums stay finite
 
 
 @dataclass(frozen=True)
@@ -175,8 +176,10 @@ def _checked_doses(given: np.ndarray, exposures: int) -> np.ndarray:
         raise InputError(
             f"doses have shape {doses.shape}; the last axis must match the {exposures} hours."
         )
-    if not np.all((doses >= 0) & np.isfinite(doses)):
-        raise InputError("a dose is negative or not finite; allowed is 0 SED or more.")
+    if not np.all((doses >= 0) & (doses <= LARGEST_DOSE)):
+        raise InputError(
+            f"a dose is negative, not finite or too large; allowed is 0 to {LARGEST_DOSE:g} SED."
+        )
     return doses
 
 

@@ -99,6 +99,8 @@ def solve(
     """
     nodes = require_whole("number of nodes", nodes, 6, 200)
     angles = np.atleast_1d(np.asarray(angle, dtype=float))
+    if angles.ndim != 1 or not angles.size:
+        raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
     for each in angles:
         require_range("angle of incidence", float(each), 0.0, 89.99, "degrees")
     radians = tuple(np.radians(angles).tolist())

@@ -308,6 +308,8 @@ def test_nodes_beyond_the_default_change_little():
     [
         ({"angle": 90.0}, "angle of incidence is 90 degrees; allowed is 0 to 89.99 degrees."),
         ({"angle": (8.0, float("nan"))}, "angle of incidence is nan"),
+        ({"angle": ()}, "angles have shape (0,)"),
+        ({"angle": ((8.0,),)}, "angles have shape (1, 1)"),
         ({"nodes": 5}, "number of nodes is 5; allowed is 6 to 200."),
         ({"wavelengths": []}, "wavelengths are no list of numbers"),
         ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the figure"),

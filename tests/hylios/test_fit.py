@@ -136,3 +136,25 @@ def test_the_command_refuses_with_one_sentence(capsys, arguments, sentence):
     assert main(["fit", *arguments]) == 2
     said = capsys.readouterr().err
     assert sentence in said and said.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("wavelengths", "reflectance", "sentence"),
+    [
+        ([], [], "have shapes"),
+        ([500.0, 600.0], [0.5], "have shapes"),
+        ([500.0], 0.5, "have shapes"),
+        ([[500.0]], [[0.5]], "have shapes"),
+        ([500.0], [np.nan], "a reflectance to fit is nan; allowed is 0 to 1"),
+        ([500.0], [-0.1], "a reflectance to fit is -0.1; allowed is 0 to 1"),
+    ],
+)
+def test_arrays_that_are_no_spectrum_are_refused(wavelengths, reflectance, sentence):
+    with pytest.raises(InputError, match=sentence):
+        fit_spectrum(S3, np.array(wavelengths), np.array(reflectance))
+
+
+@pytest.mark.parametrize("colour", [[0.5, 0.5], [[0.5, 0.5, 0.5]], [np.nan, 0, 0], [200, 160, 140]])
+def test_arrays_that_are_no_colour_are_refused(colour):
+    with pytest.raises(InputError, match="colour to fit"):
+        fit_colour(S3, np.array(colour))

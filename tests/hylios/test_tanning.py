@@ -12,6 +12,7 @@ from hylios.errors import InputError
 from hylios.specimen import SPECIMENS, tanned
 from hylios.spectra import figures
 from hylios.tanning import (
+    LARGEST_DOSE,
     PIGMENTATIONS,
     Exposures,
     ThicknessDynamics,
@@ -145,7 +146,7 @@ def test_a_later_dose_changes_nothing_before_it():
 
 @settings(max_examples=40, deadline=None)
 @given(
-    doses=st.lists(st.sampled_from([0.0, 1e-300, 1e-3, 1.0, 30.0, 1e6, 1e300]), max_size=20),
+    doses=st.lists(st.sampled_from([0.0, 1e-300, 1e-3, 1.0, 30.0, 1e6, LARGEST_DOSE]), max_size=20),
     name=st.sampled_from(list(PIGMENTATIONS)),
 )
 def test_extreme_doses_give_bounded_states(doses, name):
@@ -198,7 +199,8 @@ def test_melanin_never_fills_more_than_its_layer():
         (lambda: Exposures([1e19], [1.0]), "hours of exposure are"),
         (lambda: Exposures([0], [1.0], [1.0, 2.0]), "the last axis must match"),
         (lambda: Exposures([0], [-1.0]), "a dose is negative"),
-        (lambda: Exposures([0], [np.nan]), "a dose is negative or not finite"),
+        (lambda: Exposures([0], [np.nan]), "a dose is negative, not finite or too large"),
+        (lambda: Exposures([0], [1e308]), "allowed is 0 to 1e\\+12 SED"),
         (lambda: Exposures([0, 1], [1.0]), "the last axis must match"),
     ],
 )

@@ -1,16 +1,21 @@
-# make demo | test | test-all | bench | package, each sets up what it needs in VENV first.
+# make demo | figures | test | test-all | bench | package, each sets up what it needs in VENV first.
 # PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS).
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
+# The matrices here are small: threads of BLAS would cost them ten times their own time.
+export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: demo test test-all lint bench package environment
+.PHONY: demo figures simplifications test test-all lint bench package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
 
 demo: environment
 	@$(BIN)/python -m examples.demo
+
+figures: environment
+	@$(BIN)/python -m examples.figures $(if $(PEOPLE),--people "$(PEOPLE)") $(FIGURES)
 
 lint: environment
 	$(BIN)/ruff check .
@@ -24,6 +29,11 @@ test-all: lint
 
 bench: environment
 	@$(BIN)/python -m examples.bench
+
+# Measures what each part of the light model costs and is worth, and writes the page in docs/.
+# One thread of linear algebra: its threads would count as work while they wait.
+simplifications: environment
+	@$(BIN)/python -m examples.simplifications
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

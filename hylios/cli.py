@@ -3,10 +3,10 @@
 import argparse
 import sys
 
-from hylios.commands import reflectance, tan
+from hylios.commands import brdf, fit, plot, profile, reflectance, specimen, swatch, tan
 from hylios.shell import run
 
-COMMANDS = (reflectance, tan)
+COMMANDS = (reflectance, brdf, profile, swatch, plot, specimen, fit, tan)
 """Modules with a function `add_to`, which adds their command to a parser's subcommands."""
 
 
@@ -18,7 +18,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="hylios", description="Light and tanning in human skin, as CSV on standard output."
+        prog="hylios",
+        description="Light and tanning in human skin: CSV on standard output, pictures in files.",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for module in COMMANDS:

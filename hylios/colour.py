@@ -13,6 +13,13 @@ with warnings.catch_warnings():  # it warns that it cannot plot without matplotl
 
 STEP_NM = 5.0
 
+BANDS = {"uv": (250.0, 400.0), "visible": (400.0, 700.0), "ir": (700.0, 2500.0)}
+"""First and last wavelength in nm of the regions of section 6.1.3."""
+
+TINTS = {"uv": (0.72, 0.60, 1.0), "ir": (1.0, 0.66, 0.60)}
+"""Linear Rec.709 of a swatch of reflectance 1. The thesis prints no tint: violet and red, for the
+end of the visible that is nearer, are this project's choice."""
+
 
 @cache
 def _observer_under_daylight() -> tuple[np.ndarray, np.ndarray]:
@@ -36,11 +43,15 @@ def xyz_weights(wavelengths: np.ndarray) -> np.ndarray:
         If the wavelengths do not ascend.
     """
     wavelengths = np.asarray(wavelengths, dtype=float)
-    if wavelengths.ndim != 1 or not np.all(np.diff(wavelengths) > 0) or not wavelengths.size:
-        raise InputError("wavelengths of a colour must be a list of ascending numbers, in nm.")
+    _require_ascending(wavelengths)
     grid, weights = _observer_under_daylight()
     hats = np.array([np.interp(grid, wavelengths, row) for row in np.eye(wavelengths.size)])
     return weights @ hats.T
+
+
+def _require_ascending(wavelengths: np.ndarray) -> None:
+    if wavelengths.ndim != 1 or not np.all(np.diff(wavelengths) > 0) or not wavelengths.size:
+        raise InputError("wavelengths of a colour must be a list of ascending numbers, in nm.")
 
 
 def rec709_weights(wavelengths: np.ndarray) -> np.ndarray:
@@ -56,9 +67,55 @@ def linear_rec709(wavelengths: np.ndarray, reflectance: np.ndarray) -> np.ndarra
     return np.asarray(reflectance) @ rec709_weights(wavelengths).T
 
 
+def band_reflectance(wavelengths: np.ndarray, reflectance: np.ndarray, band: str) -> float:
+    """Mean reflectance over one of `BANDS`, linear between the wavelengths (W,) in nm.
+
+    Raises
+    ------
+    InputError
+        If the wavelengths do not ascend or do not span the band.
+    """
+    wavelengths = np.asarray(wavelengths, dtype=float)
+    first, last = BANDS[band]
+    _require_ascending(wavelengths)
+    if wavelengths[0] > first or wavelengths[-1] < last:
+        raise InputError(
+            f"the spectrum spans {wavelengths[0]:g} to {wavelengths[-1]:g} nm; a swatch of the "
+            f"band {band} needs {first:g} to {last:g} nm."
+        )
+    between = wavelengths[(wavelengths > first) & (wavelengths < last)]
+    grid = np.concatenate([[first], between, [last]])
+    values = np.interp(grid, wavelengths, reflectance)
+    return float(np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(grid)) / (last - first))
+
+
+def swatch(wavelengths: np.ndarray, reflectance: np.ndarray, band: str) -> np.ndarray:
+    """Linear Rec.709 (3,) of a swatch of a spectrum (W,) in one of `BANDS` (section 6.1.3).
+
+    Visible: the colour under D65, of the reflectance in the band only, held beyond its ends.
+    Ultraviolet and infrared: the mean reflectance over the band as a grey, tinted by `TINTS`.
+
+    Raises
+    ------
+    InputError
+        If the wavelengths do not ascend or do not span the band.
+    """
+    mean = band_reflectance(wavelengths, reflectance, band)
+    if band in TINTS:
+        return mean * np.array(TINTS[band])
+    first, last = BANDS[band]
+    grid = np.arange(first, last + STEP_NM, STEP_NM)
+    return linear_rec709(grid, np.interp(grid, wavelengths, reflectance))
+
+
 def srgb(linear: np.ndarray) -> np.ndarray:
     """sRGB (..., 3), 0 to 1, of linear Rec.709; what lies outside is cut."""
     return np.asarray(colour.models.eotf_inverse_sRGB(np.clip(linear, 0.0, 1.0)))
+
+
+def linear_of_srgb(encoded: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 (..., 3) of sRGB (..., 3), 0 to 1."""
+    return np.asarray(colour.models.eotf_sRGB(encoded))
 
 
 def lab(linear: np.ndarray) -> np.ndarray:

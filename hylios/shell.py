@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError, require_whole
-from hylios.specimen import Specimen, specimen, with_values
-from hylios.spectra import Figures, figures, replaced
-from hylios.tissue import readings
+from hylios.specimen import Specimen, parameters, specimen, with_values
+from hylios.specimen_file import read_specimen
+from hylios.spectra import Figures, estimates_within, figures, replaced
+from hylios.tissue import FIGURES, readings
 
 MOST_WAVELENGTHS = 10_000
 
@@ -49,11 +50,38 @@ def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:
         print(",".join(f"{value:.{digits}g}" for value in row))
 
 
+def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) -> None:
+    """Add the arguments that `chosen_specimen` reads.
+
+    `where` and `how` name the specimen's own argument and say more of it.
+    """
+    parser.add_argument(
+        *where, default="S3", help="S1 to S4 of table 6.1, or a file NAME.toml (default S3)", **how
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a parameter of the specimen (hylios specimen lists them); repeatable",
+    )
+    parser.add_argument(
+        "--allow-unphysical",
+        action="store_true",
+        help="take parameters outside their physiological range",
+    )
+
+
+def note_estimates(known: Figures, wavelengths: np.ndarray) -> None:
+    """Say on standard error which spectral figures are estimates at some wavelength in nm."""
+    for line in estimates_within(known, FIGURES, wavelengths):
+        print(f"note: {line}", file=sys.stderr)
+
+
 def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `chosen_skin` reads."""
-    parser.add_argument("--specimen", default="S3", help="S1 to S4 of table 6.1 (default S3)")
+    add_specimen_arguments(parser, "--specimen")
     for option, metavar, help_text in (
-        ("--set", "NAME=VALUE", "set a parameter of the specimen"),
         ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
         ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
     ):
@@ -73,6 +101,27 @@ def require_work(asked: argparse.Namespace) -> None:
         require_whole("number of threads", asked.threads, 1, 1024)
 
 
+def chosen_specimen(asked: argparse.Namespace) -> Specimen:
+    """The specimen that the arguments ask for: one of table 6.1 or a file's, with what is set.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it would not be physiological and that is not allowed.
+    """
+    numeric = {each.name for each in parameters()}
+    values = {
+        name: number(text, name) if name in numeric else text
+        for name, text in named_values(asked.set, "a setting").items()
+    }
+    unphysical = asked.allow_unphysical
+    if asked.specimen.endswith(".toml"):
+        start = read_specimen(Path(asked.specimen), allow_unphysical=unphysical)
+    else:
+        start = specimen(asked.specimen)
+    return with_values(start, values, allow_unphysical=unphysical)
+
+
 def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:
     """The specimen, spectral figures and readings that the arguments ask for.
 
@@ -81,15 +130,11 @@ def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[s
     InputError
         If one of them cannot be used.
     """
-    values = {
-        name: text if name == "melanosome_arrangement" else number(text, name)
-        for name, text in named_values(asked.set, "a setting").items()
-    }
     known = figures()
     for name, path in named_values(asked.figure, "a figure").items():
         known = replaced(known, name, Path(path))
     chosen = readings(named_values(asked.reading, "a reading"))
-    return with_values(specimen(asked.specimen), values), known, chosen
+    return chosen_specimen(asked), known, chosen
 
 
 def wavelength_range(text: str) -> np.ndarray:

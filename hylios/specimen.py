@@ -1,12 +1,14 @@
 """Skin specimens: the parameters of tables 6.1 and 6.2 of the thesis."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import MISSING, asdict, dataclass, field, fields, replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from hylios.errors import InputError, require_range
+from hylios.physiology import MOST_EPIDERMAL_MELANIN, PHYSIOLOGY
 
 EPIDERMIS = ("granulosum", "spinosum", "basale")
 ARRANGEMENTS = ("individual", "complexes", "compact_complexes")
@@ -26,12 +28,14 @@ def _fixed(value: float, unit: str, low: float, high: float, what: str):
 class Specimen:
     """A skin specimen, with the names and units of tables 6.1 (no default) and 6.2 (defaults).
 
-    Every field but the first two is a number; its metadata hold the unit and the possible range.
+    Every field but the first two is a number; its metadata hold the unit and the possible range,
+    `hylios.physiology.PHYSIOLOGY` the physiological one. Only what is impossible is refused here,
+    so that a computation may leave physiology; `specimen_of` and `with_values` refuse more.
 
     Raises
     ------
     InputError
-        If a number lies outside its range or the arrangement is unknown.
+        If a number is none or lies outside its possible range, or a text cannot be used.
     """
 
     name: str
@@ -80,18 +84,20 @@ class Specimen:
     reticular_lipids: float = _fixed(17.33, "%", 0.0, 100.0, "volume in reticular dermis")
     corneum_keratin: float = _fixed(65.0, "%", 0.0, 100.0, "volume in stratum corneum")
     corneum_urocanic_acid: float = _fixed(0.01, "mol/L", 0.0, 1.0, "in stratum corneum")
+    hypodermis_reflectance: float = _fixed(100.0, "%", 0.0, 100.0, "of what reaches it")
     skin_dna: float = _fixed(0.185, "mg/mL", 0.0, 100.0, "in the epidermis")
 
     def __post_init__(self):
+        if not (isinstance(self.name, str) and self.name and self.name.isprintable()):
+            raise InputError(f"name is {self.name!r}; allowed is printable text.")
         if self.melanosome_arrangement not in ARRANGEMENTS:
             raise InputError(
                 f"melanosome_arrangement is {self.melanosome_arrangement!r}; "
                 f"allowed is {', '.join(ARRANGEMENTS)}."
             )
         for each in parameters():
-            limits = each.metadata
-            value = getattr(self, each.name)
-            require_range(each.name, value, limits["low"], limits["high"], limits["unit"])
+            value, limits = _number(each.name, getattr(self, each.name)), each.metadata
+            require_range(each.name, value, limits["low"], limits["high"], _unit(each))
         for layer, content in zip(reversed(EPIDERMIS), self.melanin, strict=True):
             if content > 1.0 + 1e-9:
                 raise InputError(
@@ -131,19 +137,76 @@ def parameters():
     return [each for each in fields(Specimen) if each.metadata]
 
 
-def with_values(specimen: Specimen, values: Mapping[str, Any]) -> Specimen:
+def _unit(parameter) -> str:
+    """A field's unit as it stands behind a number."""
+    return "" if parameter.metadata["unit"] == "1" else parameter.metadata["unit"]
+
+
+def _number(name: str, value: Any) -> float:
+    if isinstance(value, Real) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError as error:
+            raise InputError(f"{name} is too large; expected a number.") from error
+    raise InputError(f"{name} is {str(value)[:40]!r}; expected a number.")
+
+
+def specimen_of(values: Mapping[str, Any], *, allow_unphysical: bool = False) -> Specimen:
+    """A specimen from its fields by name; those of table 6.2 may be left out.
+
+    Raises
+    ------
+    InputError
+        If a field is unknown, missing or no number, or lies outside its physiological range (with
+        `allow_unphysical`, outside its possible range).
+    """
+    known = {each.name: each for each in fields(Specimen)}
+    for name in values:
+        if name not in known:
+            raise InputError(f"there is no parameter {name!r}; there are {', '.join(known)}.")
+    missing = [name for name in known if known[name].default is MISSING and name not in values]
+    if missing:
+        raise InputError(f"the specimen lacks {', '.join(missing)}.")
+    if not allow_unphysical:
+        _require_physiological_ranges(values)
+    made = Specimen(**values)
+    if not allow_unphysical and made.pigmentation > MOST_EPIDERMAL_MELANIN:
+        raise InputError(
+            f"melanin is {100 * made.pigmentation:g} % of the epidermis; physiological is 0 to "
+            f"{100 * MOST_EPIDERMAL_MELANIN:g} %, allowed is 0 to 100 % with --allow-unphysical."
+        )
+    return made
+
+
+def _require_physiological_ranges(values: Mapping[str, Any]) -> None:
+    for each in parameters():
+        if each.name not in values:
+            continue
+        value, known = _number(each.name, values[each.name]), PHYSIOLOGY[each.name]
+        if not known.holds(value):
+            unit = f" {_unit(each)}".rstrip()
+            low, high = each.metadata["low"], each.metadata["high"]
+            raise InputError(
+                f"{each.name} is {value:g}{unit}; physiological is {known.low:g} to "
+                f"{known.high:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
+                "--allow-unphysical."
+            )
+
+
+def with_values(
+    specimen: Specimen, values: Mapping[str, Any], *, allow_unphysical: bool = False
+) -> Specimen:
     """The specimen with some parameters set by name: numbers, and the melanosomes' arrangement.
 
     Raises
     ------
     InputError
-        If there is no such parameter or its value is out of range.
+        If there is no such parameter, or the specimen would not be physiological (with
+        `allow_unphysical`, not possible).
     """
-    known = [each.name for each in fields(Specimen) if each.name != "name"]
-    for name in values:
-        if name not in known:
-            raise InputError(f"there is no parameter {name!r}; there are {', '.join(known)}.")
-    return replace(specimen, **values)
+    if "name" in values:
+        raise InputError("the name of a specimen is no parameter; a file can give one.")
+    return specimen_of({**asdict(specimen), **values}, allow_unphysical=allow_unphysical)
 
 
 def tanned(specimen: Specimen, melanin: np.ndarray, thickness: float) -> Specimen:

@@ -30,6 +30,9 @@ SCALE_ANGLE = 5.0
 """Parameter theta_0 of algorithm 1 in degrees (the thesis calls it the mean angle, which is near
 twice as large); it falls to 0 from 780 to 1300 nm (4.2.1)."""
 
+MOST_MELANOSOMES_MET = 2e4
+"""How many melanosomes a ray may be expected to meet in one layer: some milliseconds' work."""
+
 FIGURES = (
     "eumelanin",
     "pheomelanin",
@@ -186,7 +189,9 @@ class Stack:
     roughness : float
         Parameter s of the surface's normals (4.8); 0 is flat.
     lambertian_floor : bool
-        Whether the lower face reflects everything diffusely; else light leaves to `index_below`.
+        Whether the lower face reflects diffusely; else light meets `index_below` there.
+    floor_reflectance : float
+        Share of the light that a Lambertian floor reflects, at every angle; the rest is lost.
     melanin_index : float
         Refractive index inside melanosomes.
     scattering_angle : float
@@ -196,6 +201,7 @@ class Stack:
     layers: tuple[Layer, ...]
     roughness: float = 0.0
     lambertian_floor: bool = False
+    floor_reflectance: float = 1.0
     index_above: float = 1.0
     index_below: float = 1.0
     melanin_index: float = 1.0
@@ -216,7 +222,7 @@ def stack(
     ------
     InputError
         If the wavelength lies outside the figures, a reading is unknown, or a layer is too thin
-        for the melanosomes in it.
+        for the melanosomes in it, or so thick, full and clear that a ray would hardly ever end.
     """
     known = known or figures()
     decided = readings(chosen)
@@ -250,6 +256,7 @@ def stack(
         layers=layers,
         roughness=specimen.surface_fold_aspect_ratio,
         lambertian_floor=True,
+        floor_reflectance=0.01 * specimen.hypodermis_reflectance,
         melanin_index=specimen.melanin_refractive_index,
         scattering_angle=scattering_angle(wavelength),
         readings=decided,
@@ -472,13 +479,30 @@ def _epidermal_layer(
             f"{part}_thickness is {thickness:g} cm; allowed with melanosomes in that layer is the "
             f"size of one, {thinnest:g} cm, or more."
         )
+    encounter = encounter_coefficient(content, semi_minor, semi_major, radius)
+    inside = float(melanin_coefficient(specimen, wavelength, known))
+    _require_end(part, thickness, encounter, absorption + min(encounter, content * inside))
     return Layer(
         thickness=thickness,
         refractive_index=refractive_index(specimen, "epidermis", wavelength, known),
         absorption=absorption,
-        encounter=encounter_coefficient(content, semi_minor, semi_major, radius),
+        encounter=encounter,
         semi_minor=semi_minor,
         semi_major=semi_major,
         complex_radius=radius,
-        melanin_absorption=float(melanin_coefficient(specimen, wavelength, known)),
+        melanin_absorption=inside,
     )
+
+
+def _require_end(part: str, thickness: float, encounter: float, lost: float) -> None:
+    """Raise InputError where a ray would meet too many melanosomes before it ends.
+
+    A diffuse ray's mean path in a clear slab over a white floor is 4 n^2, here 8, times the
+    slab's thickness, however much it scatters; absorption, about `lost` per cm, shortens it.
+    """
+    met = encounter * (1.0 / lost if lost * 8.0 * thickness > 1.0 else 8.0 * thickness)
+    if met > MOST_MELANOSOMES_MET:
+        raise InputError(
+            f"{part}_thickness is {thickness:g} cm, where a ray would meet about {met:.1g} "
+            f"melanosomes before it ends; allowed is up to {MOST_MELANOSOMES_MET:g}."
+        )

@@ -3,7 +3,6 @@
 import argparse
 import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -12,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hylios.errors import InputError, require_range, require_whole
+from hylios.errors import require_range, require_whole
+from hylios.files import require_target
 from hylios.shell import (
     add_skin_arguments,
     add_work_arguments,
@@ -100,22 +100,8 @@ def _settings(asked: argparse.Namespace) -> "Settings":
     return settings
 
 
-def _require_target(target: Path, replacing: bool) -> None:
-    """Raise InputError where the table could not be written in the end."""
-    if target.suffix != ".exr":
-        raise InputError(f"the table is to be {target}; its name must end in .exr.")
-    if target.is_dir() or (target.exists() and not replacing):
-        hint = "it is a folder" if target.is_dir() else "--force replaces it"
-        raise InputError(f"{target} exists already; {hint}.")
-    try:
-        with tempfile.TemporaryFile(dir=target.parent):
-            pass
-    except OSError as error:
-        raise InputError(f"{target} cannot be written: {error.strerror}.") from error
-
-
 def _build(asked: argparse.Namespace) -> None:
-    _require_target(asked.output, asked.force)
+    require_target(asked.output, (".exr",), asked.force)
     require_work(asked)
     specimen, known, chosen = chosen_skin(asked)
 

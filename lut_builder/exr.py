@@ -1,13 +1,12 @@
 """Writing and reading a `SkinTable` as an EXR file with OpenImageIO (layout: `hylios.table`)."""
 
-import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
 import OpenImageIO as oiio  # noqa: N813 (its own documentation calls it so)
 
 from hylios.errors import InputError
+from hylios.files import written_beside
 from hylios.table import HEADER_ATTRIBUTE, SkinTable, from_pixels, header_text, to_pixels
 
 
@@ -26,26 +25,14 @@ def write_table(path: Path, table: SkinTable) -> None:
     specification.attribute(HEADER_ATTRIBUTE, header)
     # Else the hour of writing goes into the file, and equal tables are unequal files.
     specification.attribute("DateTime", "")
-    try:
-        handle, name = tempfile.mkstemp(suffix=".exr", dir=path.parent, prefix=f".{path.stem}-")
-    except OSError as error:
-        raise InputError(f"the table {path} cannot be written: {error.strerror}.") from error
-    os.close(handle)
-    beside = Path(name)
-    try:
-        output = oiio.ImageOutput.create(name)
+    with written_beside(path) as beside:
+        output = oiio.ImageOutput.create(str(beside))
         if output is None:
             raise InputError(f"the table {path} cannot be written: {oiio.geterror()}.")
-        written = output.open(name, specification) and output.write_image(pixels)
+        written = output.open(str(beside), specification) and output.write_image(pixels)
         if not (output.close() and written):
             raise InputError(f"the table {path} cannot be written: {output.geterror()}.")
         _require_written(path, beside, header)
-        beside.chmod(0o666 & ~_umask())
-        os.replace(beside, path)
-    except OSError as error:
-        raise InputError(f"the table {path} cannot be written: {error.strerror}.") from error
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def read_table(path: Path) -> SkinTable:
@@ -72,9 +59,3 @@ def _require_written(path: Path, beside: Path, header: str) -> None:
         kept = False
     if not kept:
         raise InputError(f"the table {path} cannot be written: it does not read back.")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -1,18 +1,16 @@
 """`hylios reflectance`: a specimen's spectrum by random walk, as CSV."""
 
 import argparse
-import sys
 
 from hylios.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
+    note_estimates,
     print_table,
     require_work,
     wavelength_range,
 )
-from hylios.spectra import estimates_within
-from hylios.tissue import FIGURES
 
 
 def add_to(commands) -> None:
@@ -48,8 +46,7 @@ def run(asked: argparse.Namespace) -> None:
         chosen=chosen,
         as_printed=asked.as_printed,
     )
-    for line in estimates_within(known, FIGURES, result.wavelengths):
-        print(f"note: {line}", file=sys.stderr)
+    note_estimates(known, result.wavelengths)
     print_table(
         {
             "wavelength_nm": result.wavelengths,

@@ -8,7 +8,7 @@ import csv
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from types import MappingProxyType
@@ -27,7 +27,7 @@ class Estimate:
     what: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Figure:
     """One spectrum with its unit, its source and what of it is an estimate.
 
@@ -52,6 +52,8 @@ class Figure:
         InputError
             If a wavelength lies outside the figure.
         """
+        if isinstance(wavelengths, float):
+            return _value(self, wavelengths)
         asked = np.asarray(wavelengths, dtype=float)
         first, last = self.wavelengths[0], self.wavelengths[-1]
         outside = asked[~((asked >= first) & (asked <= last))]
@@ -61,6 +63,12 @@ class Figure:
                 f"allowed is {first:g} to {last:g} nm."
             )
         return np.interp(asked, self.wavelengths, self.values)
+
+
+@lru_cache(maxsize=100_000)
+def _value(figure: Figure, wavelength: float) -> np.ndarray:
+    """A single value, kept: fits ask for the same few wavelengths thousands of times."""
+    return figure.at(np.array(wavelength))
 
 
 Figures = Mapping[str, Figure]

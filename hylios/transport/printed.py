@@ -94,7 +94,7 @@ def walk_as_printed(layers, surroundings, readings, ray, state):
 
     Returns how it ended, the layer that absorbed it (-1 if none did), where, and its direction.
     """
-    roughness, above, _, melanin_index, scale = surroundings
+    roughness, above, _, melanin_index, scale, _ = surroundings
     _, by_diameter, bent, exponential, every, _, _ = readings
     position = (0.0, 0.0, 0.0)
     crossed, ray = meet_surface(state, ray, above, layers[0, INDEX], roughness)

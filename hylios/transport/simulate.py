@@ -175,6 +175,8 @@ class Spectrum:
         Rays per wavelength.
     surface, subsurface : (W,) arrays
         Share of the light that the surface reflects, and that leaves after having been inside.
+    lost_below : (W,) array
+        Share that the hypodermis swallows; none where its reflectance is 1.
     absorbed, absorbed_in_melanosomes : (W, L) arrays
         Share that ends in each layer's absorbers and in its melanosomes, counted there. Layers
         are those of `hylios.tissue.PARTS`.
@@ -188,6 +190,7 @@ class Spectrum:
     rays: int
     surface: np.ndarray
     subsurface: np.ndarray
+    lost_below: np.ndarray
     absorbed: np.ndarray
     absorbed_in_melanosomes: np.ndarray
     absorber_shares: np.ndarray
@@ -200,8 +203,8 @@ class Spectrum:
 
     @property
     def absorptance(self) -> np.ndarray:
-        """Share of the light that is absorbed, (W,), from its own tally."""
-        return (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
+        """Share of the light that is absorbed, (W,), from tallies of its own."""
+        return self.lost_below + (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
 
     @property
     def absorbed_by(self) -> np.ndarray:
@@ -298,13 +301,12 @@ def spectrum(
     counts = [each for each in found if each is not None]
     left = np.array([each.left for each in counts]) / rays
     absorbed = np.array([each.absorbed for each in counts]) / rays
-    if np.any(left[:, TRANSMITTED] > 0):
-        raise RuntimeError("light left through the floor of a skin, whose reflectance is 1")
     return Spectrum(
         wavelengths=asked,
         rays=rays,
         surface=left[:, SURFACE],
         subsurface=left[:, SUBSURFACE],
+        lost_below=left[:, TRANSMITTED],
         absorbed=absorbed[:, 0],
         absorbed_in_melanosomes=absorbed[:, 1],
         absorber_shares=_absorber_shares(specimen, asked, known, chosen),

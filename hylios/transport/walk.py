@@ -10,6 +10,7 @@ import numpy as np
 
 from hylios.tissue import Stack
 from hylios.transport.compiling import part
+from hylios.transport.generator import uniform
 from hylios.transport.interfaces import meet_interface, meet_surface
 from hylios.transport.melanosome import half_extent
 from hylios.transport.sampling import lambertian_cosine, turned
@@ -78,6 +79,7 @@ def kernel_arguments(stack: Stack) -> tuple[np.ndarray, tuple[float, ...], tuple
         stack.index_below,
         stack.melanin_index,
         stack.scattering_angle,
+        stack.floor_reflectance,
     )
     chosen = stack.readings
     readings = (
@@ -105,7 +107,7 @@ def distance_to_face(layers, here, position, ray):
 @part
 def meet_face(state, layers, surroundings, readings, here, ray):
     """What becomes of a ray at a face of layer `here`: its end or UNDECIDED, its layer, the ray."""
-    roughness, above, below, _, _ = surroundings
+    roughness, above, below, _, _, floor_reflectance = surroundings
     floor, _, _, _, _, optical, mirrored = readings
     down = ray[2] > 0.0
     index = layers[here, INDEX]
@@ -119,6 +121,8 @@ def meet_face(state, layers, surroundings, readings, here, ray):
         crossed, ray = meet_surface(state, ray, index, above, roughness)
         return SUBSURFACE if crossed else UNDECIDED, here, ray
     if floor:
+        if floor_reflectance < 1.0 and uniform(state) >= floor_reflectance:
+            return TRANSMITTED, here, ray
         return UNDECIDED, here, _leave_floor(state, ray, mirrored)
     crossed, ray = meet_interface(state, ray, index, below)
     return TRANSMITTED if crossed else UNDECIDED, here, ray

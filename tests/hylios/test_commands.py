@@ -37,7 +37,8 @@ def test_reflectance_is_a_spectrum_on_standard_output(capsys):
 def test_a_parameter_and_a_reading_change_the_spectrum(capsys):
     usual = ["reflectance", "--wavelengths", "550", "--rays", "4000"]
     outputs = []
-    for more in ([], ["--set", "papillary_blood=60"], ["--reading", "rayleigh=every_collision"]):
+    bloody = ["--set", "papillary_blood=60", "--allow-unphysical"]
+    for more in ([], bloody, ["--reading", "rayleigh=every_collision"]):
         assert main([*usual, *more]) == 0
         outputs.append(float(rows(capsys.readouterr().out)[0]["total"]))
     assert outputs[1] < outputs[0] - 0.05
@@ -62,6 +63,12 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --set papillary_blood", "expected NAME=VALUE"),
         ("reflectance --set papillary_blood=x", "papillary_blood is 'x'; expected a number."),
         ("reflectance --set papillary_blood=120", "allowed is 0 to 100 %"),
+        ("reflectance --set papillary_blood=5", "physiological is 0.08 to 4 %, allowed is 0 to"),
+        ("reflectance --set papillary_blood=120 --allow-unphysical", "; allowed is 0 to 100 %."),
+        ("reflectance --set name=Ada", "the name of a specimen is no parameter"),
+        ("reflectance --specimen none.toml", "none.toml cannot be read: No such file"),
+        ("specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4."),
+        ("specimen --set basale_thickness=", "basale_thickness is ''; expected a number."),
         ("reflectance --wavelengths 700:400:5", "expected FIRST:LAST:STEP"),
         ("reflectance --wavelengths 200", "allowed is 250 to 2500 nm"),
         ("reflectance --angle 91", "allowed is 0 to 89.99 degrees"),

@@ -11,7 +11,11 @@ STANDARD = set(sys.stdlib_module_names)
 
 ALLOWED = {
     "hylios": {"numpy"},
+    "hylios/adding": {"numpy"},
     "hylios/colour.py": {"numpy", "colour"},
+    "hylios/predecessors": {"numpy", "numba", "scipy"},
+    "hylios/pictures.py": {"numpy", "matplotlib"},
+    "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
@@ -19,7 +23,7 @@ ALLOWED = {
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
 
-LIGHT_ROOMS = ("hylios/transport", "hylios/commands")
+LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors", "hylios/fit.py")
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
 NUMPY_ONLY = ("tanning", "table", "errors")

@@ -1,0 +1,133 @@
+"""Reflectance curves for the figures, without noise or with as many rays as were asked for."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from examples.figures.measured_people import People
+from hylios.adding import solve
+from hylios.specimen import Specimen
+from hylios.tissue import Stack, stack
+from hylios.transport.simulate import spectrum
+from hylios.transport.survival import with_survival
+
+RANGE = np.arange(250.0, 2501.0, 5.0)
+"""The whole range of the thesis at its resolution of 5 nm, (451,)."""
+
+THESIS_RAYS = 100_000
+"""Rays per wavelength in the thesis (section 6.1.4)."""
+
+BATCH = 64
+"""Wavelengths between two words of progress of a curve without noise."""
+
+RAYS_AS_LONG = 1500
+"""Rays that walk while a wavelength is solved without noise; it only serves the time left."""
+
+Tick = Callable[[float], object]
+"""Told how much work of what size has ended."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How many rays per wavelength, from which seed, on how many threads (all cores if None).
+
+    And beside which measured people, if any.
+    """
+
+    rays: int = THESIS_RAYS
+    seed: int = 1
+    threads: int | None = None
+    people: People | None = None
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Directional-hemispherical reflectance.
+
+    Attributes
+    ----------
+    wavelengths, reflectance, standard_error : (W,) arrays; nm, 1, 1
+    rays : int
+        Per wavelength; 0 where the curve has no noise.
+    """
+
+    wavelengths: np.ndarray
+    reflectance: np.ndarray
+    standard_error: np.ndarray
+    rays: int
+
+    def within(self, first: float, last: float) -> np.ndarray:
+        """Reflectance from `first` to `last` nm, both included."""
+        return self.reflectance[(self.wavelengths >= first) & (self.wavelengths <= last)]
+
+
+@dataclass(frozen=True)
+class Task:
+    """Some work, given what to tell of its progress, and its size.
+
+    The unit is what a curve without noise takes for one wavelength.
+    """
+
+    work: Callable[[Tick], object]
+    size: float
+
+
+def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
+    """What so many rays per wavelength would give: each returns or does not."""
+    found = np.random.default_rng(seed).binomial(rays, np.clip(reflectance, 0.0, 1.0))
+    return found / rays
+
+
+def farthest(exact: Curve, walked: Curve) -> float:
+    """Largest difference of a walked curve from one without noise, in its standard errors."""
+    expected = np.interp(walked.wavelengths, exact.wavelengths, exact.reflectance)
+    return float(np.max(np.abs(walked.reflectance - expected) / walked.standard_error))
+
+
+def exact(stacks: Sequence[Stack], angle: float) -> np.ndarray:
+    """Reflectance (W,) of stacks without noise, by adding their layers."""
+    return solve([with_survival(each) for each in stacks], angle).total
+
+
+def noise_free(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    angle: float,
+    chosen: Mapping[str, str] | None = None,
+) -> Task:
+    """The task of a curve without noise, with other readings of the thesis where chosen."""
+    asked = np.asarray(wavelengths, dtype=float)
+
+    def work(tick: Tick) -> Curve:
+        found = []
+        for part in np.split(asked, range(BATCH, asked.size, BATCH)):
+            found.append(exact([stack(specimen, each, chosen=chosen) for each in part], angle))
+            tick(part.size)
+        return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
+
+    return Task(work, asked.size)
+
+
+def walked(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    angle: float,
+    effort: Effort,
+) -> Task:
+    """The task of a curve by random walk."""
+    asked = np.asarray(wavelengths, dtype=float)
+
+    def work(tick: Tick) -> Curve:
+        found = spectrum(
+            specimen,
+            asked,
+            angle=angle,
+            rays=effort.rays,
+            seed=effort.seed,
+            threads=effort.threads,
+            progress=lambda rays: tick(rays / RAYS_AS_LONG),
+        )
+        return Curve(asked, found.total, found.standard_error, effort.rays)
+
+    return Task(work, asked.size * effort.rays / RAYS_AS_LONG)

@@ -1,0 +1,1 @@
+"""What each simplification of the light model costs and buys, measured."""

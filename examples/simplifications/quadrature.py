@@ -1,0 +1,74 @@
+"""Chooses the wavelengths that hylios ships: `python -m examples.simplifications.quadrature`.
+
+A minute's work, the same every time; writes hylios/quadrature.csv.
+"""
+
+import csv
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.polynomial import legendre
+
+import hylios
+from examples.simplifications.light import GRID, metrics, reflectances
+from examples.simplifications.skins import random_skins
+from examples.simplifications.variants import whole
+from hylios import colour
+from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Colours, Quadrature, choose
+
+FIRST, LAST = 400.0, 700.0
+"""Of the wavelengths to choose from: beyond, the eye sees little and the figures are guesses."""
+
+SKINS = 300
+
+
+def skin_colours(count: int = SKINS, seed: int = 1) -> Colours:
+    """Random skins, none of them among those that anything is measured on."""
+    weights = colour.rec709_weights(GRID)
+    light = reflectances(random_skins(count, seed), GRID, whole)
+    return Colours(GRID, weights, light, metrics(light @ weights.T))
+
+
+def gauss(count: int) -> Quadrature:
+    """Gauss's quadrature for what the eye sees of daylight, to compare with.
+
+    Nodes are those of Gauss for the weight (x + y + z) D65 on `GRID`, weights those that give
+    each channel of a polynomial reflectance of a degree below `count` exactly.
+    """
+    full = colour.rec709_weights(GRID)
+    weight = colour.xyz_weights(GRID).sum(axis=0)
+    place = np.interp(GRID, (GRID[0], GRID[-1]), (-1.0, 1.0))
+    polynomials = legendre.legvander(place, count - 1)
+    orthonormal, _ = np.linalg.qr(np.sqrt(weight)[:, None] * polynomials)
+    nodes = np.linalg.eigvalsh(orthonormal.T @ (place[:, None] * orthonormal))
+    moments = full @ polynomials
+    weights = np.linalg.solve(legendre.legvander(nodes, count - 1).T, moments.T).T
+    return Quadrature(np.interp(nodes, (-1.0, 1.0), (GRID[0], GRID[-1])), weights)
+
+
+def write(quadratures: Sequence[Quadrature], path: Path) -> None:
+    """Write quadratures as CSV."""
+    unfinished = path.with_suffix(".unfinished")
+    with unfinished.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for each in quadratures:
+            for wavelength, weights in zip(each.wavelengths, each.weights.T, strict=True):
+                numbers = [f"{weight:.9f}" for weight in weights]
+                writer.writerow([each.wavelengths.size, f"{wavelength:g}", *numbers])
+    os.replace(unfinished, path)
+
+
+def main() -> None:
+    """Choose and write."""
+    allowed = (GRID >= FIRST) & (GRID <= LAST)
+    made = choose(skin_colours(), MOST, allowed=allowed)
+    path = Path(hylios.__file__).parent / TABLE
+    write(made[FEWEST - 1 :], path)
+    print(f"wrote {path}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""Skins to measure on, and others to choose wavelengths by."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
+from hylios.tanning import Exposures, simulate
+from lut_builder.states import skin
+
+DOSE = 30.0  # SED, on day 0
+DAYS = (0, 2, 10, 30)
+"""Of a tan; day 0 is the skin before it, with melanin as the tanning model spreads it (5.16)."""
+
+
+def tan(specimen: Specimen) -> list[Specimen]:
+    """A specimen on `DAYS` of a tan, by its usual way of tanning."""
+    made_for = skin(specimen)
+    history = simulate(
+        Exposures([0], [DOSE]),
+        made_for.dynamics,
+        mmd=made_for.mmd,
+        med=made_for.med,
+        hours=24 * max(DAYS),
+    )
+    states = history.states[24 * np.array(DAYS)]
+    return [tanned(specimen, state[:3], state[3]) for state in states]
+
+
+def measured() -> tuple[list[Specimen], list[Specimen]]:
+    """S1 to S4, and the tans of all four."""
+    return list(SPECIMENS.values()), [each for one in SPECIMENS.values() for each in tan(one)]
+
+
+def random_skins(count: int, seed: int) -> list[Specimen]:
+    """Skins drawn at random around S1 to S4, from hardly any melanin to more than S4's.
+
+    What colours skin varies: melanin, its form and place, blood and its oxygenation, the rarer
+    pigments, and thickness.
+    """
+    random = np.random.default_rng(seed)
+
+    def between(low: float, high: float) -> float:
+        return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+    def drawn() -> Specimen:
+        usual = list(SPECIMENS.values())[random.integers(len(SPECIMENS))]
+        # Three layers at 3 x 25 % at most hold it, whatever the shares.
+        shares = 3.0 * between(0.2, 30.0) * random.dirichlet([1.0, 1.0, 1.0])
+        inside = random.uniform()
+        melanin = {}
+        for layer, share in zip(EPIDERMIS, shares, strict=True):
+            melanin[f"{layer}_melanosomes"] = float(share * inside)
+            melanin[f"{layer}_colloidal_melanin"] = float(share * (1.0 - inside))
+        blood = between(0.2, 5.0)
+        return replace(
+            usual,
+            **melanin,
+            eumelanin_concentration=between(20.0, 100.0),
+            papillary_blood=blood,
+            reticular_blood=blood,
+            oxygenated_blood=random.uniform(50.0, 98.0),
+            methemoglobin=between(0.3, 6.0),
+            carboxyhemoglobin=between(0.3, 6.0),
+            blood_bilirubin=between(0.001, 0.03),
+            epidermis_beta_carotene=between(5e-5, 1e-3),
+            papillary_thickness=usual.papillary_thickness * between(0.6, 1.6),
+            reticular_thickness=usual.reticular_thickness * between(0.6, 1.6),
+        )
+
+    return [drawn() for _ in range(count)]

@@ -1,0 +1,89 @@
+"""The light model with one part of it left out."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from hylios.specimen import EPIDERMIS, Specimen
+from hylios.tissue import Stack, stack
+
+Variant = Callable[[Specimen, float], Stack]
+"""Optical layers of a specimen at a wavelength in nm."""
+
+EPIDERMAL = slice(1, 1 + len(EPIDERMIS))
+
+NO_RARE_PIGMENTS = {
+    "methemoglobin": 0.0,
+    "carboxyhemoglobin": 0.0,
+    "sulfhemoglobin": 0.0,
+    "corneum_beta_carotene": 0.0,
+    "epidermis_beta_carotene": 0.0,
+    "blood_beta_carotene": 0.0,
+}
+
+
+def whole(specimen: Specimen, wavelength: float) -> Stack:
+    """The model as it is."""
+    return stack(specimen, wavelength)
+
+
+def plain_absorber(specimen: Specimen, wavelength: float) -> Stack:
+    """Melanosomes dissolved: their melanin absorbs evenly and nothing scatters in the epidermis."""
+    contents = {}
+    for layer in EPIDERMIS:
+        inside = getattr(specimen, f"{layer}_melanosomes")
+        colloidal = getattr(specimen, f"{layer}_colloidal_melanin")
+        contents[f"{layer}_melanosomes"] = 0.0
+        contents[f"{layer}_colloidal_melanin"] = min(inside + colloidal, 100.0)
+    return stack(replace(specimen, **contents), wavelength)
+
+
+def no_rayleigh(specimen: Specimen, wavelength: float) -> Stack:
+    """The papillary dermis does not scatter."""
+    return without_rayleigh(stack(specimen, wavelength))
+
+
+def without_rayleigh(layers: Stack) -> Stack:
+    """Layers whose fibres do not scatter."""
+    return replace(layers, layers=tuple(replace(each, rayleigh=0.0) for each in layers.layers))
+
+
+def spread_evenly(specimen: Specimen, wavelength: float) -> Stack:
+    """Melanin of either form spread over the three epidermal layers alike."""
+    thickness = [getattr(specimen, f"{layer}_thickness") for layer in EPIDERMIS]
+    contents = {}
+    for form in ("melanosomes", "colloidal_melanin"):
+        held = [getattr(specimen, f"{layer}_{form}") for layer in EPIDERMIS]
+        mean = sum(a * b for a, b in zip(held, thickness, strict=True)) / sum(thickness)
+        contents |= {f"{layer}_{form}": mean for layer in EPIDERMIS}
+    return stack(replace(specimen, **contents), wavelength)
+
+
+def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
+    """One epidermal layer with the mean contents, its melanosomes of the stratum basale's size."""
+    layers = stack(specimen, wavelength)
+    *upper, basale = parts = layers.layers[EPIDERMAL]
+    thickness = sum(each.thickness for each in parts)
+
+    def mean(quantities) -> float:
+        return (
+            sum(q * each.thickness for q, each in zip(quantities, parts, strict=True)) / thickness
+        )
+
+    # Melanosomes attenuate as their content over their size (4.3).
+    joined = replace(
+        basale,
+        thickness=thickness,
+        absorption=mean(each.absorption for each in parts),
+        encounter=mean(each.encounter * each.semi_minor for each in parts) / basale.semi_minor,
+    )
+    return replace(layers, layers=(layers.layers[0], joined, *layers.layers[EPIDERMAL.stop :]))
+
+
+def no_rare_pigments(specimen: Specimen, wavelength: float) -> Stack:
+    """Neither dysfunctional haemoglobins nor carotene."""
+    return stack(replace(specimen, **NO_RARE_PIGMENTS), wavelength)
+
+
+def all_of_it(specimen: Specimen, wavelength: float) -> Stack:
+    """All of these at once: plain absorbers in one epidermis over a clear dermis."""
+    return without_rayleigh(plain_absorber(replace(specimen, **NO_RARE_PIGMENTS), wavelength))

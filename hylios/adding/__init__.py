@@ -1,0 +1,9 @@
+"""Reflectance and absorptance of plane layers without random numbers.
+
+The model is the random walk's of `hylios.transport`, averaged instead of drawn; numpy only.
+"""
+
+from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.adding.spectrum import Spectrum, spectrum
+
+__all__ = ["NODES", "Reflectance", "Spectrum", "solve", "spectrum"]

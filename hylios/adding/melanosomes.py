@@ -1,0 +1,122 @@
+"""Melanosomes as a homogeneous medium: how often light meets one, and comes out again.
+
+The walk draws a melanosome again that would cross its layer's boundary or overlap the one met
+before it. So light meets fewer than `Layer.encounter` says, by a few per cent that follow from
+their size alone:
+
+- Behind a melanosome that was survived, none is met for a length l on average, the mean distance
+  at which two on one ray cease to overlap. A dead length l behind each encounter that is survived,
+  of which there are `survival` times as many, divides the rate by 1 + survival encounter l.
+- None is met within (z - s cos) of the face where light comes in, z being half a melanosome's
+  extent across the layer and s the distance along the ray from the point hit to the centre.
+- Towards the other face, (z + s cos) is closed. But those drawn there are drawn again in the
+  part before, all the more surely the fewer light meets on the way: what remains of the loss is
+  its share exp(-encounter path) that meets none.
+
+Both lengths shorten the layer. All terms are of first order in size; measured with the walk, slabs
+like the layers of S1 to S4 absorb within .5 % of this.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from hylios.tissue import Layer
+
+USUAL_COSINE = 0.85
+"""Of light in the epidermis, for the closed lengths at the faces, which depend on it little."""
+
+PAIRS = 4096
+"""Pairs of melanosomes over which the dead length is averaged."""
+
+STEPS = 64
+"""Distances tried for each."""
+
+
+def encounters(layer: Layer, survival: float, by_diameter: bool) -> tuple[float, float]:
+    """Rate in 1/cm at which light meets melanosomes or complexes, and survival of one encounter.
+
+    Parameters
+    ----------
+    survival : float
+        Of one melanosome.
+    by_diameter : bool
+        Whether every ray meets as many melanosomes of a complex as its diameter holds.
+    """
+    if layer.complex_radius > 0.0:
+        size, dead, extent, offset = layer.complex_radius, *_pair(1.0)
+        held = layer.complex_radius / layer.semi_minor
+        survival = _survival_of_complex(survival, held, by_diameter)
+    else:
+        size, dead, extent, offset = layer.semi_minor, *_pair(layer.semi_minor / layer.semi_major)
+    through = np.exp(-layer.encounter * layer.thickness / USUAL_COSINE)
+    across = offset * USUAL_COSINE
+    closed = size * ((extent - across) + (extent + across) * through) / layer.thickness
+    rate = layer.encounter * max(0.0, 1.0 - closed)
+    return rate / (1.0 + survival * layer.encounter * dead * size), survival
+
+
+def _survival_of_complex(survival: float, held: float, by_diameter: bool) -> float:
+    """Probability of leaving unabsorbed a sphere whose diameter is that many minor axes.
+
+    A ray meets as many melanosomes as its chord holds. Evenly spread over the sphere's
+    projection, a share c of the diameter has the density 2 c.
+    """
+    if by_diameter:
+        return survival ** int(held)
+    count = np.arange(int(held) + 1)
+    chance = np.minimum((count + 1) / held, 1.0) ** 2 - (count / held) ** 2
+    return float(chance @ survival**count)
+
+
+@lru_cache(maxsize=256)
+def _pair(aspect: float) -> tuple[float, float, float]:
+    """Dead length, half extent along a ray, and distance from point hit to centre along it.
+
+    Means over melanosomes that rays meet (4.5), in units of the semi-minor axis. Overlap is that
+    of `hylios.transport.melanosome`. Points are spread evenly by Halton's sequences, so that the
+    result is smooth in the aspect, semi-minor to semi-major axis.
+    """
+    spread = _halton(8)
+    (first, start), (second, end) = (_met(spread[part : part + 4], aspect) for part in (0, 4))
+    longest = 4.0 / aspect
+    ahead = (np.arange(STEPS) + 0.5) / STEPS * longest
+    between = (end - start)[:, None, :] + ahead[None, :, None] * np.array([0.0, 0.0, 1.0])
+    apart = np.linalg.norm(between, axis=2)
+    line = between / apart[:, :, None]
+    reach = sum(
+        np.sqrt(1.0 + (1.0 / aspect**2 - 1.0) * (line @ axis[:, :, None])[:, :, 0] ** 2)
+        for axis in (first, second)
+    )
+    overlapping = (apart < reach) & (apart < 2.0 / aspect)
+    extent = np.sqrt(1.0 + (1.0 / aspect**2 - 1.0) * first[:, 2] ** 2)
+    return float(overlapping.mean() * longest), float(extent.mean()), float(start[:, 2].mean())
+
+
+def _met(spread: np.ndarray, aspect: float) -> tuple[np.ndarray, np.ndarray]:
+    """Long axis of spheroids met along z, and their centre from the point hit, both (PAIRS, 3)."""
+    share = 0.5 * (1.0 + aspect) * spread[0]
+    cosine = 2.0 * share / (1.0 + np.sqrt(1.0 - 2.0 * (1.0 - aspect) * share))
+    sine, turn = np.sqrt(1.0 - cosine**2), 2.0 * np.pi * spread[1]
+    axis = np.stack([sine * np.cos(turn), sine * np.sin(turn), cosine], axis=1)
+    ray = (aspect - 1.0) * cosine[:, None] * axis + np.array([0.0, 0.0, 1.0])
+    ray /= np.linalg.norm(ray, axis=1, keepdims=True)
+    across = np.cross(ray, [1.0, 0.3, 0.2])
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    away, turn = np.sqrt(spread[2])[:, None], 2.0 * np.pi * spread[3][:, None]
+    inwards = np.sqrt(1.0 - away**2) * ray
+    inwards -= away * (np.cos(turn) * across + np.sin(turn) * np.cross(ray, across))
+    along = (inwards * axis).sum(axis=1, keepdims=True)
+    return axis, inwards + (1.0 / aspect - 1.0) * along * axis
+
+
+def _halton(dimensions: int) -> np.ndarray:
+    """Evenly spread points of the unit cube (Halton 1960), (dimensions, PAIRS)."""
+    points = np.zeros((dimensions, PAIRS))
+    for row, base in zip(points, (2, 3, 5, 7, 11, 13, 17, 19), strict=False):
+        left, step = np.arange(1, PAIRS + 1), 1.0
+        while left.any():
+            step /= base
+            row += step * (left % base)
+            left //= base
+    return points

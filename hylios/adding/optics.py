@@ -1,0 +1,180 @@
+"""What of a stack does not depend on how much its layers absorb and scatter, worked out once.
+
+Directions, the rough surface and the densities of scattering take several times as long as
+adding the layers up. They are kept, so that stacks which differ in their pigments only share them.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from hylios.adding.directions import Directions, integrals, node_counts
+from hylios.adding.scattering import (
+    ORDER,
+    Medium,
+    henyey_greenstein_moments,
+    medium,
+    melanosome_moments,
+    rayleigh_moments,
+)
+from hylios.adding.surface import from_inside, from_outside
+from hylios.errors import InputError, require_range
+from hylios.tissue import Layer, Stack
+
+KEPT = 4096
+"""Optics kept, about 20 kB each at the default number of nodes."""
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """What stacks that can be solved together have in common.
+
+    Attributes
+    ----------
+    ranks : tuple of int
+        Order of the refractive indices above, of the layers, and below.
+    counts : tuple of int
+        Nodes between one index and the next (`Directions`).
+    kinds : tuple of tuple of str
+        What scatters in each layer.
+    floor : str
+        How the floor reflects; "open" where light leaves there.
+    """
+
+    ranks: tuple[int, ...]
+    counts: tuple[int, ...]
+    kinds: tuple[tuple[str, ...], ...]
+    floor: str
+
+
+@dataclass(frozen=True)
+class Figures:
+    """The numbers from which the optics of a stack of a known pattern follow.
+
+    `indices` are those above, of the layers, and below; where inner faces do not reflect, light
+    finds the uppermost layer's in all.
+    """
+
+    roughness: float
+    scattering_angle: float
+    exponential: bool
+    indices: tuple[float, ...]
+    anisotropies: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Optics:
+    """Optics of a stack.
+
+    Attributes
+    ----------
+    cosines : dict of rank to (cosine, weight), (M,) arrays
+        Directions in a layer whose refractive index has that rank.
+    media : dict of int to Medium
+        Of the layers, by number, that are one.
+    mirrored, let_out
+        What the surface does to light from inside (`surface.from_inside`).
+    surface, entering
+        What it does to light from outside (`surface.from_outside`).
+    """
+
+    cosines: dict[int, tuple[np.ndarray, np.ndarray]]
+    media: dict[int, Medium]
+    mirrored: np.ndarray
+    let_out: np.ndarray
+    surface: np.ndarray
+    entering: np.ndarray
+
+
+def figures(stack: Stack) -> Figures:
+    """The figures of a stack."""
+    inner = tuple(each.refractive_index for each in stack.layers)
+    if stack.readings["inner_fresnel"] == "off":
+        inner = inner[:1] * len(inner)
+    below = inner[-1] if stack.lambertian_floor else stack.index_below
+    return Figures(
+        roughness=stack.roughness,
+        scattering_angle=stack.scattering_angle,
+        exponential=stack.readings["melanosome_scattering"] == "exponential",
+        indices=(stack.index_above, *inner, below),
+        anisotropies=tuple(each.anisotropy for each in stack.layers),
+    )
+
+
+def pattern(stack: Stack, found: Figures, nodes: int) -> Pattern:
+    """The pattern of a stack with the given figures.
+
+    Raises
+    ------
+    InputError
+        If a layer's thickness is not finite, or fibres that scatter once per traversal share a
+        layer with other scatterers.
+    """
+    values = sorted(set(found.indices))
+    return Pattern(
+        ranks=tuple(values.index(each) for each in found.indices),
+        counts=node_counts(np.array([0.0, *values]) ** 2, nodes),
+        kinds=tuple(_kinds(each, stack) for each in stack.layers),
+        floor=stack.readings["floor"] if stack.lambertian_floor else "open",
+    )
+
+
+def _kinds(layer: Layer, stack: Stack) -> tuple[str, ...]:
+    """What scatters in a layer; melanosomes that turn no light only absorb."""
+    require_range("thickness of a layer", layer.thickness, 0.0, 1e9, "cm")
+    every = stack.readings["rayleigh"] == "every_collision"
+    present = {
+        "melanosomes": layer.encounter > 0.0 and stack.scattering_angle > 0.0,
+        "scatterers": layer.scattering > 0.0,
+        "fibres": layer.rayleigh > 0.0 and every,
+        "fibres once": layer.rayleigh > 0.0 and not every,
+    }
+    kinds = tuple(name for name in present if present[name])
+    if "fibres once" in kinds and len(kinds) > 1:
+        raise InputError(
+            f"reading rayleigh is {stack.readings['rayleigh']!r} for a layer with other scatterers "
+            "too; allowed there is 'every_collision'."
+        )
+    return kinds
+
+
+def is_medium(kinds: tuple[str, ...]) -> bool:
+    """Whether a layer with these scatterers is solved as a medium, any number of events long."""
+    return bool(kinds) and "fibres once" not in kinds
+
+
+@lru_cache(maxsize=KEPT)
+def optics(found: Figures, shared: Pattern, angles: tuple[float, ...]) -> Optics:
+    """Optics of stacks with the given figures and pattern, for angles of incidence in radians."""
+    made = Directions(np.array([0.0, *sorted(set(found.indices))]) ** 2, shared.counts)
+    above, top = found.indices[0], shared.ranks[1] + 1
+    mirrored, let_out = from_inside(made, top, above, found.roughness)
+    surface, entering = from_outside(made, top, above, found.roughness, np.array(angles))
+    return Optics(
+        cosines={rank: made.cosines(rank + 1) for rank in set(shared.ranks[1:-1])},
+        media=_media(made, found, shared),
+        mirrored=mirrored,
+        let_out=let_out,
+        surface=surface,
+        entering=entering,
+    )
+
+
+def _media(made: Directions, found: Figures, shared: Pattern) -> dict[int, Medium]:
+    """Media of the layers; layers that are alike have one in common."""
+    keys = list(zip(shared.ranks[1:-1], shared.kinds, found.anisotropies, strict=True))
+    media: dict[tuple, Medium] = {}
+    for rank, kinds, anisotropy in keys:
+        if is_medium(kinds) and (rank, kinds, anisotropy) not in media:
+            moments = {
+                "melanosomes": lambda: melanosome_moments(
+                    found.scattering_angle, found.exponential
+                ),
+                "scatterers": lambda each=anisotropy: henyey_greenstein_moments(each),
+                "fibres": rayleigh_moments,
+            }
+            media[rank, kinds, anisotropy] = medium(
+                integrals(made, rank + 1, ORDER), [moments[kind]() for kind in kinds]
+            )
+    return {number: media[key] for number, key in enumerate(keys) if key in media}

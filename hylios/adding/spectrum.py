@@ -1,0 +1,59 @@
+"""The spectrum of a specimen without random numbers."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.errors import InputError
+from hylios.specimen import Specimen
+from hylios.spectra import Figures
+from hylios.tissue import stack
+
+
+@dataclass(frozen=True)
+class Spectrum(Reflectance):
+    """Reflectance and absorptance of a specimen.
+
+    Attributes
+    ----------
+    wavelengths : (W,) array, nm
+        The other arrays are (W,) too, or (A, W) for several angles.
+    """
+
+    wavelengths: np.ndarray
+
+
+def spectrum(
+    specimen: Specimen,
+    wavelengths: Iterable[float],
+    *,
+    angle: float | Sequence[float] = 8.0,
+    nodes: int = NODES,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> Spectrum:
+    """A specimen's spectrum, as `hylios.transport.simulate.spectrum` without its noise.
+
+    Parameters
+    ----------
+    wavelengths : iterable of float
+        nm, 250 to 2500.
+    angle, nodes
+        As in `solve`.
+    known, chosen
+        As in `hylios.tissue.stack`.
+
+    Raises
+    ------
+    InputError
+        If a wavelength, the angle or the number of nodes is out of range, or the melanosomes'
+        shape or refractive index lies outside the table of survival.
+    """
+    asked = np.atleast_1d(np.asarray(wavelengths, dtype=float))
+    if asked.ndim != 1 or asked.size == 0:
+        raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
+    stacks = [stack(specimen, each, known=known, chosen=chosen) for each in asked]
+    found = solve(stacks, angle, nodes)
+    return Spectrum(found.surface, found.subsurface, found.transmittance, asked)

@@ -1,0 +1,75 @@
+"""`hylios brdf`: where a specimen reflects light of one wavelength and incidence, as CSV."""
+
+import argparse
+
+import numpy as np
+
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    note_estimates,
+    print_table,
+    require_work,
+)
+
+DESCRIPTION = """\
+One row for each bin of directions: its middle in polar angle (0 is the skin's normal) and azimuth
+(0 is the side to which a mirror sends the light, 180 the side it came from; left and right of the
+plane of incidence are alike and counted together), its projected solid angle, and the mean BRDF in
+it, of light that the surface reflects, of light that was inside, and of both with its standard
+error, in 1/sr. Total times projected solid angle, summed over all rows, is the reflectance.
+"""
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser(
+        "brdf", help="angular distribution of a specimen's reflectance", description=DESCRIPTION
+    )
+    parser.set_defaults(command=run)
+    add_skin_arguments(parser)
+    add_work_arguments(parser)
+    parser.add_argument("--wavelength", type=float, default=550.0, help="nm (default 550)")
+    parser.add_argument("--angle", type=float, default=45.0, help="of incidence, degrees")
+    parser.add_argument("--polar-bins", type=int, default=18, help="in 0 to 90 degrees")
+    parser.add_argument("--azimuth-bins", type=int, default=12, help="in 0 to 180 degrees")
+    parser.add_argument("--rays", type=int, default=1_000_000)
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Simulate and print."""
+    from hylios.transport.angular import brdf  # numba: only when light is asked for
+
+    require_work(asked)
+    specimen, known, chosen = chosen_skin(asked)
+    result = brdf(
+        specimen,
+        asked.wavelength,
+        angle=asked.angle,
+        polar_bins=asked.polar_bins,
+        azimuth_bins=asked.azimuth_bins,
+        rays=asked.rays,
+        seed=asked.seed,
+        threads=asked.threads,
+        known=known,
+        chosen=chosen,
+    )
+    note_estimates(known, np.array([asked.wavelength]))
+    polar, azimuth = np.meshgrid(
+        _middles(result.polar_edges), _middles(result.azimuth_edges), indexing="ij"
+    )
+    columns = {
+        "polar_degrees": polar,
+        "azimuth_degrees": azimuth,
+        "projected_solid_angle_sr": result.projected_solid_angle,
+        "surface_per_sr": result.surface,
+        "subsurface_per_sr": result.subsurface,
+        "total_per_sr": result.total,
+        "standard_error": result.standard_error,
+    }
+    print_table({name: values.ravel() for name, values in columns.items()})
+
+
+def _middles(edges: np.ndarray) -> np.ndarray:
+    return 0.5 * (edges[1:] + edges[:-1])

@@ -1,0 +1,92 @@
+"""`hylios fit`: the specimen that reflects like a measured spectrum, or has a measured colour."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError
+from hylios.quadrature import skin_quadrature
+from hylios.shell import add_skin_arguments, chosen_skin, note_estimates, number, wavelength_range
+from hylios.specimen_file import specimen_toml
+from hylios.spectrum_file import read_spectrum
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser(
+        "fit",
+        help="a specimen that reflects like measured skin",
+        description="Prints the fitted specimen as TOML, which every --specimen takes; what the "
+        "data do not determine is said in comments. The start is --specimen with --set.",
+    )
+    parser.set_defaults(command=run)
+    add_skin_arguments(parser)
+    data = parser.add_mutually_exclusive_group(required=True)
+    data.add_argument(
+        "--spectrum",
+        type=Path,
+        metavar="FILE",
+        help="CSV with a column wavelength_nm and one of reflectance, 0 to 1",
+    )
+    data.add_argument("--srgb", metavar="R,G,B", help="a colour under D65, 0 to 255 each")
+    parser.add_argument("--column", default="total", help="that holds the reflectance")
+    parser.add_argument(
+        "--wavelengths", help="nm, FIRST:LAST:STEP or a,b,c (default: at most 61 of the file's)"
+    )
+    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
+    parser.add_argument("--free", help="what may change, by name, with commas between")
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Fit and print."""
+    from hylios.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
+
+    start, known, chosen = chosen_skin(asked)
+    light = {
+        "free": USUAL if asked.free is None else tuple(asked.free.split(",")),
+        "angle": asked.angle,
+        "known": known,
+        "chosen": chosen,
+    }
+    if asked.srgb is not None:
+        wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
+        found = fit_colour(start, _colour(asked.srgb), **light)
+        target = f"the colour {asked.srgb}"
+        error = f"{np.linalg.norm(found.residual):.2f} off in L*a*b* (CIE76)"
+    else:
+        measured = read_spectrum(asked.spectrum, asked.column)
+        wavelengths = _wavelengths(asked.wavelengths, measured.wavelengths)
+        reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
+        found = fit_spectrum(start, wavelengths, reflectance, **light)
+        target = f"{measured.name}, {asked.column}, at {wavelengths.size} wavelengths"
+        error = f"root mean square error {found.rmse:.4f}"
+    note_estimates(known, wavelengths)
+    for line in (f"Fitted to {target}: {error}.", *found.remarks()):
+        print(f"# {line}")
+    print(specimen_toml(replace(found.specimen, name=f"{start.name} fitted")), end="")
+
+
+MOST_WAVELENGTHS = 61
+
+
+def _wavelengths(text: str | None, measured: np.ndarray) -> np.ndarray:
+    """Those asked for, or at most `MOST_WAVELENGTHS` of the measured ones, evenly chosen."""
+    if text is None:
+        count = min(measured.size, MOST_WAVELENGTHS)
+        return measured[np.round(np.linspace(0, measured.size - 1, count)).astype(int)]
+    asked = wavelength_range(text)
+    if asked.min() < measured[0] or asked.max() > measured[-1]:
+        raise InputError(
+            f"wavelengths are {text!r}; the spectrum has {measured[0]:g} to {measured[-1]:g} nm."
+        )
+    return asked
+
+
+def _colour(text: str) -> np.ndarray:
+    """sRGB (3,), 0 to 1, of a text R,G,B."""
+    values = np.array([number(part, "a part of --srgb") for part in text.split(",")])
+    if values.shape != (3,) or not np.all((values >= 0.0) & (values <= 255.0)):
+        raise InputError(f"--srgb is {text!r}; allowed are three numbers from 0 to 255.")
+    return values / 255.0

@@ -1,0 +1,32 @@
+"""`hylios plot`: spectra as PNG or SVG."""
+
+import argparse
+from pathlib import Path
+
+from hylios.files import require_target
+from hylios.spectrum_file import read_spectra
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser(
+        "plot",
+        help="spectra as PNG or SVG",
+        description="Draws CSV files as `hylios reflectance` prints them: the column total over "
+        "wavelength_nm, with a band of one standard_error each way where there is that column.",
+    )
+    parser.set_defaults(command=run)
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE.csv", help="- is stdin")
+    parser.add_argument("--force", action="store_true", help="replace an existing file")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png|FILE.svg")
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Read, draw and write."""
+    require_target(asked.output, (".png", ".svg"), asked.force)
+    spectra = read_spectra(asked.files)
+
+    from hylios.pictures import spectra_figure, write_figure  # matplotlib takes a second
+
+    write_figure(spectra_figure(spectra), asked.output)
+    print(f"wrote {asked.output}: {', '.join(each.name for each in spectra)}")

@@ -1,0 +1,87 @@
+"""`hylios profile`: how far from a pencil beam light leaves a specimen, as CSV."""
+
+import argparse
+import sys
+
+import numpy as np
+
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    note_estimates,
+    print_table,
+    require_work,
+)
+
+DESCRIPTION = """\
+One row for each ring around the point where a pencil beam comes in: its inner and outer radius in
+mm, the radial exitance R(r) in it with its standard error, and the mean over it of the fitted
+Burley profile, in 1/mm^2. R times the rings' areas, summed, is the subsurface reflectance (but for
+light beyond the last ring, which is said). The fitted width d is said on standard error; Cycles'
+radius is 4 pi 1.04 d = 13.07 d. With --fit there is one row only: the reflectance and the width.
+"""
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser(
+        "profile", help="radial exitance of a specimen, and Burley's width", description=DESCRIPTION
+    )
+    parser.set_defaults(command=run)
+    add_skin_arguments(parser)
+    add_work_arguments(parser)
+    parser.add_argument("--wavelength", type=float, default=633.0, help="nm (default 633)")
+    parser.add_argument("--angle", type=float, default=0.0, help="of incidence, degrees")
+    parser.add_argument("--smallest", type=float, default=0.01, help="first ring's radius, mm")
+    parser.add_argument("--largest", type=float, default=100.0, help="last ring's radius, mm")
+    parser.add_argument("--rings", type=int, default=60)
+    parser.add_argument("--fit", action="store_true", help="only the fitted width, as CSV")
+    parser.add_argument("--rays", type=int, default=1_000_000)
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Simulate and print."""
+    from hylios.transport.radial import profile  # numba: only when light is asked for
+
+    require_work(asked)
+    specimen, known, chosen = chosen_skin(asked)
+    result = profile(
+        specimen,
+        asked.wavelength,
+        angle=asked.angle,
+        smallest=asked.smallest,
+        largest=asked.largest,
+        rings=asked.rings,
+        rays=asked.rays,
+        seed=asked.seed,
+        threads=asked.threads,
+        known=known,
+        chosen=chosen,
+    )
+    width, error = result.burley_width, result.burley_width_error
+    note_estimates(known, np.array([asked.wavelength]))
+    if asked.fit:
+        row = {
+            "wavelength_nm": asked.wavelength,
+            "subsurface": result.subsurface,
+            "burley_width_mm": width,
+            "standard_error_mm": error,
+        }
+        print_table({name: np.array([value]) for name, value in row.items()})
+        return
+    print(f"note: Burley's width d is {width:.4g} mm, standard error {error:.2g}", file=sys.stderr)
+    if result.beyond:
+        print(
+            f"note: {result.beyond:.3g} of the light leaves beyond {asked.largest:g} mm",
+            file=sys.stderr,
+        )
+    print_table(
+        {
+            "inner_mm": result.edges[:-1],
+            "outer_mm": result.edges[1:],
+            "exitance_per_mm2": result.exitance,
+            "standard_error": result.standard_error,
+            "burley_per_mm2": result.burley,
+        }
+    )

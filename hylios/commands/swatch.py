@@ -1,0 +1,87 @@
+"""`hylios swatch`: the colours of spectra side by side, as PNG."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError, require_range, require_whole
+from hylios.files import require_target
+from hylios.shell import (
+    add_skin_arguments,
+    add_work_arguments,
+    chosen_skin,
+    note_estimates,
+    require_work,
+)
+from hylios.spectrum_file import NamedSpectrum, read_spectra
+
+DESCRIPTION = """\
+One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.
+Visible: the colour under D65. Ultraviolet (250 to 400 nm) and infrared (700 to 2500 nm): the mean
+reflectance as a grey, tinted violet or red; the tint is this project's choice.
+"""
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser = commands.add_parser(
+        "swatch", help="colour of a spectrum or a specimen, as PNG", description=DESCRIPTION
+    )
+    parser.set_defaults(command=run)
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE.csv", help="- is stdin")
+    add_skin_arguments(parser)
+    parser.set_defaults(specimen=None)
+    add_work_arguments(parser)
+    parser.add_argument("--band", choices=("visible", "uv", "ir"), default="visible")
+    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
+    parser.add_argument("--step", type=float, default=5.0, help="between wavelengths, nm")
+    parser.add_argument("--rays", type=int, default=10_000, help="per wavelength")
+    parser.add_argument("--size", type=int, default=256, help="of a square, pixels")
+    parser.add_argument("--force", action="store_true", help="replace an existing file")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png")
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Read or simulate, and write."""
+    require_target(asked.output, (".png",), asked.force)
+    size = require_whole("size", asked.size, 1, 4096)
+    if asked.files and (asked.specimen or asked.set or asked.reading or asked.figure):
+        raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
+    spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
+
+    from hylios.colour import srgb, swatch
+    from hylios.pictures import swatches, write_pixels
+
+    colours = srgb(
+        np.array([swatch(each.wavelengths, each.reflectance, asked.band) for each in spectra])
+    )
+    pixels = swatches(colours, size)
+    write_pixels(pixels, asked.output)
+    codes = ("#{:02x}{:02x}{:02x}".format(*pixel) for pixel in pixels[0, ::size])
+    named = ", ".join(f"{each.name} {code}" for each, code in zip(spectra, codes, strict=True))
+    print(f"wrote {asked.output}: {named}")
+
+
+def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
+    """The spectrum of the specimen asked for over the band."""
+    from hylios.colour import BANDS
+    from hylios.transport.simulate import spectrum  # numba: only when light is asked for
+
+    require_work(asked)
+    asked.specimen = asked.specimen or "S3"
+    specimen, known, chosen = chosen_skin(asked)
+    first, last = BANDS[asked.band]
+    step = require_range("step", asked.step, 1.0, last - first, "nm")
+    result = spectrum(
+        specimen,
+        np.linspace(first, last, round((last - first) / step) + 1),
+        angle=asked.angle,
+        rays=asked.rays,
+        seed=asked.seed,
+        threads=asked.threads,
+        known=known,
+        chosen=chosen,
+    )
+    note_estimates(known, result.wavelengths)
+    return NamedSpectrum(specimen.name, result.wavelengths, result.total, result.standard_error)

@@ -1,0 +1,65 @@
+"""Writing files: never over another one unasked, never half of one."""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from hylios.errors import InputError
+
+
+def require_target(target: Path, suffixes: tuple[str, ...], replacing: bool) -> None:
+    """Raise InputError where a file could not be written in the end; call it before the work.
+
+    Parameters
+    ----------
+    suffixes : tuple of str
+        One of which its name must end in.
+    replacing : bool
+        Whether it may exist already.
+    """
+    if target.suffix.lower() not in suffixes:
+        raise InputError(f"the file is to be {target}; its name must end in {_listed(suffixes)}.")
+    if target.is_dir() or (target.exists() and not replacing):
+        hint = "it is a folder" if target.is_dir() else "--force replaces it"
+        raise InputError(f"{target} exists already; {hint}.")
+    try:
+        with tempfile.TemporaryFile(dir=target.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"{target} cannot be written: {error.strerror}.") from error
+
+
+@contextmanager
+def written_beside(target: Path) -> Iterator[Path]:
+    """A file beside the target to write into; it is moved there if no exception comes.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    beside = None
+    try:
+        handle, name = tempfile.mkstemp(prefix=".", suffix=target.suffix, dir=target.parent)
+        os.close(handle)
+        beside = Path(name)
+        yield beside
+        beside.chmod(0o666 & ~_umask())
+        os.replace(beside, target)
+    except OSError as error:
+        raise InputError(f"{target} cannot be written: {error.strerror or error}.") from error
+    finally:
+        if beside is not None:
+            beside.unlink(missing_ok=True)
+
+
+def _listed(suffixes: tuple[str, ...]) -> str:
+    return " or ".join(suffixes)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

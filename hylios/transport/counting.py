@@ -1,0 +1,91 @@
+"""Counts over many rays through one stack, piece by piece on all cores."""
+
+import os
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from hylios.errors import require_whole
+from hylios.specimen import Specimen
+from hylios.spectra import Figures
+from hylios.tissue import Stack, stack
+from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, trace
+from hylios.transport.survival import with_survival
+
+
+def skin_stack(
+    specimen: Specimen,
+    wavelength: float,
+    *,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> Stack:
+    """The layers of a specimen at one wavelength in nm, ready to be walked.
+
+    Raises
+    ------
+    InputError
+        As `hylios.tissue.stack`.
+    """
+    return with_survival(stack(specimen, wavelength, known=known, chosen=chosen))
+
+
+def skin_key(seed: int, wavelength: float) -> tuple[int, int]:
+    """What names the random numbers of a wavelength, in nm: the same as in a spectrum.
+
+    Raises
+    ------
+    InputError
+        If the seed is out of range.
+    """
+    return require_whole("seed", seed, 0, 2**63), round(wavelength * 1000)
+
+
+def counted(
+    tally: Callable[[Rays], np.ndarray],
+    layers: Stack,
+    *,
+    rays: int,
+    angle: float,
+    key: tuple[int, ...],
+    threads: int | None = None,
+) -> np.ndarray:
+    """Sum of a tally over rays through a stack; it does not depend on the number of threads.
+
+    Parameters
+    ----------
+    tally : callable
+        From the rays of one piece to an integer array of always the same shape.
+    angle : float
+        Of incidence, in degrees, 0 to 89.99.
+    key : tuple of int
+        Names the streams of random numbers.
+    threads : int, optional
+        All cores by default.
+
+    Raises
+    ------
+    InputError
+        If the angle or a number is out of range.
+    """
+    rays = require_whole("number of rays", rays, 1, MOST_RAYS)
+    threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
+
+    def piece(first: int) -> np.ndarray:
+        size = min(CHUNK, rays - first)
+        return tally(trace(layers, rays=size, angle=angle, key=(*key, first)))
+
+    results = in_threads(piece, iter(range(0, rays, CHUNK)), threads)
+    total = next(results).copy()
+    for result in results:
+        total += result
+    return total
+
+
+def share_error(counts: np.ndarray, rays: int) -> np.ndarray:
+    """Standard error of counts / rays: binomial, with one more ray of either fate.
+
+    So it is not 0 where no ray, or every ray, was counted (Laplace's rule of succession).
+    """
+    share = (counts + 1.0) / (rays + 2.0)
+    return np.sqrt(share * (1.0 - share) / rays)

@@ -1,0 +1,189 @@
+"""How far from where a pencil beam comes in light leaves: the radial exitance R(r)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.errors import InputError, require_range, require_whole
+from hylios.profile import burley_share_within, burley_width, burley_width_error
+from hylios.specimen import Specimen
+from hylios.spectra import Figures
+from hylios.tissue import Stack
+from hylios.transport.counting import counted, share_error, skin_key, skin_stack
+from hylios.transport.simulate import Rays
+from hylios.transport.walk import SUBSURFACE
+
+SMALLEST_MM, LARGEST_MM, RINGS = 0.01, 100.0, 60
+MOST_RINGS = 10_000
+
+
+@dataclass(frozen=True)
+class RadialExitance:
+    """Light that leaves after having been inside, by distance from where a pencil beam came in.
+
+    R(r) is the share of the beam's light that leaves per area at distance r, averaged over all
+    directions along the surface. In a ring from r_1 to r_2 that k of n rays left through,
+    R = k / (n pi (r_2^2 - r_1^2)). The sum of R times area over the rings, plus `beyond`, is the
+    subsurface reflectance.
+
+    Attributes
+    ----------
+    angle : float
+        Of incidence, in degrees.
+    rays : int
+    edges : (N + 1,) array
+        Of the rings, in mm: 0, then in equal steps of the logarithm.
+    counts : (N + 1,) int array
+        Rays that left through each ring; the last element counts those beyond the last ring.
+    """
+
+    angle: float
+    rays: int
+    edges: np.ndarray
+    counts: np.ndarray
+
+    @property
+    def area(self) -> np.ndarray:
+        """Of each ring, (N,) in mm^2."""
+        return np.pi * np.diff(self.edges**2)
+
+    @property
+    def exitance(self) -> np.ndarray:
+        """R of each ring, (N,) in 1/mm^2."""
+        return self.counts[:-1] / self.rays / self.area
+
+    @property
+    def standard_error(self) -> np.ndarray:
+        """Standard error of R, (N,) in 1/mm^2; not 0 where no ray came (`share_error`)."""
+        return share_error(self.counts[:-1], self.rays) / self.area
+
+    @property
+    def beyond(self) -> float:
+        """Share of the beam's light that leaves farther out than the last ring."""
+        return float(self.counts[-1] / self.rays)
+
+    @property
+    def subsurface(self) -> float:
+        """Share of the beam's light that leaves after having been inside."""
+        return float(self.counts.sum() / self.rays)
+
+    @property
+    def burley_width(self) -> float:
+        """Width d in mm of the Burley profile nearest to R (`hylios.profile.burley_width`).
+
+        Raises
+        ------
+        InputError
+            If no ray came back from inside.
+        """
+        self._require_light()
+        return burley_width(self.edges, self.counts)
+
+    @property
+    def burley_width_error(self) -> float:
+        """Standard error of `burley_width` in mm from the noise of the counts.
+
+        Raises
+        ------
+        InputError
+            If no ray came back from inside.
+        """
+        self._require_light()
+        return burley_width_error(self.edges, self.counts)
+
+    @property
+    def burley(self) -> np.ndarray:
+        """Mean of the fitted Burley profile over each ring, (N,) in 1/mm^2, with all the light.
+
+        Raises
+        ------
+        InputError
+            If no ray came back from inside.
+        """
+        within = burley_share_within(self.edges, self.burley_width)
+        return self.subsurface * np.diff(within) / self.area
+
+    def _require_light(self) -> None:
+        if not self.counts.any():
+            raise InputError(
+                f"none of {self.rays} rays came back from inside the skin; a profile needs more."
+            )
+
+
+def profile(
+    specimen: Specimen,
+    wavelength: float,
+    *,
+    angle: float = 0.0,
+    smallest: float = SMALLEST_MM,
+    largest: float = LARGEST_MM,
+    rings: int = RINGS,
+    rays: int = 1_000_000,
+    seed: int = 1,
+    threads: int | None = None,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> RadialExitance:
+    """Radial exitance of a specimen at one wavelength under a pencil beam.
+
+    Parameters
+    ----------
+    wavelength : float
+        nm, 250 to 2500.
+    angle : float
+        Of incidence, in degrees, 0 to 89.99.
+    smallest, largest : float
+        Outer radius in mm of the first ring, which starts at 0, and of the last.
+    rings : int
+        2 to 10,000.
+    threads, known, chosen
+        As in `hylios.transport.simulate.spectrum`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    """
+    return radial_exitance(
+        skin_stack(specimen, wavelength, known=known, chosen=chosen),
+        angle=angle,
+        smallest=smallest,
+        largest=largest,
+        rings=rings,
+        rays=rays,
+        key=skin_key(seed, wavelength),
+        threads=threads,
+    )
+
+
+def radial_exitance(
+    layers: Stack,
+    *,
+    angle: float = 0.0,
+    smallest: float = SMALLEST_MM,
+    largest: float = LARGEST_MM,
+    rings: int = RINGS,
+    rays: int = 1_000_000,
+    key: tuple[int, ...] = (1,),
+    threads: int | None = None,
+) -> RadialExitance:
+    """Radial exitance of a stack of layers; `key` names the random numbers, the rest as `profile`.
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range.
+    """
+    smallest = require_range("smallest radius", smallest, 1e-6, 1e3, "mm")
+    largest = require_range("largest radius", largest, 1.001 * smallest, 1e6, "mm")
+    rings = require_whole("number of rings", rings, 2, MOST_RINGS)
+    edges = np.concatenate([[0.0], np.geomspace(smallest, largest, rings)])
+
+    def tally(traced: Rays) -> np.ndarray:
+        distance = traced.distance[traced.outcome == SUBSURFACE]
+        ring = np.searchsorted(edges, distance, side="right") - 1
+        return np.bincount(ring, minlength=edges.size)
+
+    counts = counted(tally, layers, rays=rays, angle=angle, key=key, threads=threads)
+    return RadialExitance(angle=angle, rays=rays, edges=edges, counts=counts)

@@ -1,0 +1,216 @@
+"""What simplifications cost and buy: the simplified layers, noise, tan lines and the page."""
+
+import datetime
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from examples.simplifications import __main__ as simplifications
+from examples.simplifications import edge, light, measures, report, skins, variants
+from hylios import colour
+from hylios.quadrature import Quadrature
+from hylios.specimen import EPIDERMIS, SPECIMENS
+from hylios.transport.simulate import DISTANCE_EDGES, Spectrum
+
+ROOT = Path(__file__).parent.parent.parent
+WAVELENGTH = 500.0
+
+
+def absorbing_depth(layers):
+    """Optical depth of all absorbers, melanosomes' taken by their content (4.3 for a complex)."""
+    return sum(each.thickness * each.absorption for each in layers.layers)
+
+
+@pytest.mark.parametrize("name", list(SPECIMENS))
+def test_dissolved_melanosomes_keep_their_melanin(name):
+    specimen = SPECIMENS[name]
+    usual = variants.whole(specimen, WAVELENGTH)
+    plain = variants.plain_absorber(specimen, WAVELENGTH)
+    assert all(each.encounter == 0.0 for each in plain.layers)
+    melanin = sum(
+        0.01 * getattr(specimen, f"{part}_melanosomes") * each.thickness * each.melanin_absorption
+        for part, each in zip(EPIDERMIS, usual.layers[1:4], strict=True)
+    )
+    assert absorbing_depth(plain) == pytest.approx(absorbing_depth(usual) + melanin, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", list(SPECIMENS))
+@pytest.mark.parametrize("variant", [variants.one_epidermis, variants.spread_evenly])
+def test_melanin_moved_is_still_all_there(name, variant):
+    def amounts(layers):
+        epidermis = layers.layers[1:-2]
+        held = sum(each.thickness * each.encounter * each.semi_minor for each in epidermis)
+        return [held, absorbing_depth(layers), sum(each.thickness for each in layers.layers)]
+
+    specimen = SPECIMENS[name]
+    moved = variant(specimen, WAVELENGTH)
+    assert amounts(moved) == pytest.approx(amounts(variants.whole(specimen, WAVELENGTH)), rel=1e-12)
+
+
+def test_one_epidermis_of_like_layers_is_the_three():
+    """Where nothing is there to be averaged but particles of one size: none at all."""
+    bare = replace(SPECIMENS["S3"], basale_melanosomes=0.0)
+    three = light.reflectances([bare], np.array([450.0, 600.0]), variants.whole)
+    one = light.reflectances([bare], np.array([450.0, 600.0]), variants.one_epidermis)
+    assert one == pytest.approx(three, abs=1e-9)
+    assert len(variants.one_epidermis(bare, WAVELENGTH).layers) == 4
+
+
+def test_what_is_left_out_is_gone():
+    specimen = SPECIMENS["S4"]
+    clear = variants.all_of_it(specimen, WAVELENGTH)
+    assert all(each.rayleigh == each.encounter == each.scattering == 0.0 for each in clear.layers)
+    usual = variants.whole(specimen, WAVELENGTH)
+    assert sum(each.rayleigh > 0.0 for each in usual.layers) == 1
+    assert all(each.rayleigh == 0.0 for each in variants.no_rayleigh(specimen, WAVELENGTH).layers)
+    rarer = variants.no_rare_pigments(specimen, WAVELENGTH)
+    assert absorbing_depth(rarer) < absorbing_depth(usual)
+
+
+def test_tans_darken_and_fade():
+    lightness = [
+        colour.lab(colour.linear_rec709(measures.COARSE, each))[0]
+        for each in light.reflectances(skins.tan(SPECIMENS["S3"]), measures.COARSE, variants.whole)
+    ]
+    assert int(np.argmin(lightness)) == skins.DAYS.index(10)
+
+
+def test_random_skins_are_the_same_each_time_and_go_past_s4():
+    drawn = skins.random_skins(100, 1)
+    assert drawn == skins.random_skins(100, 1)
+    pigmentation = [each.pigmentation for each in drawn]
+    assert min(pigmentation) < 0.01 and max(pigmentation) > SPECIMENS["S4"].pigmentation
+
+
+def test_noise_is_that_of_binomial_draws():
+    """4000 draws: their root mean square is known to 1 %, 4 standard errors are allowed."""
+    wavelengths = measures.EVEN[::10]
+    weights = colour.rec709_weights(wavelengths)
+    reflectance = np.linspace(0.2, 0.6, wavelengths.size)[None]
+    colours = reflectance @ weights.T
+    rays, draws = 1_000_000, 4000
+    expected = light.noise(weights, reflectance, colours, rays)
+    drawn = np.random.default_rng(5).binomial(rays, reflectance, (draws, wavelengths.size)) / rays
+    squared = colour.difference(np.broadcast_to(colours, (draws, 3)), drawn @ weights.T) ** 2
+    error = squared.std() / np.sqrt(draws)
+    assert abs(squared.mean() - expected**2) < 4.0 * error + 0.01 * expected**2
+
+
+def ring(distance: float, share: float) -> Spectrum:
+    """Light at one wavelength of which a share comes out, all of it at one distance in mm."""
+    exits = np.zeros((1, DISTANCE_EDGES.size), int)
+    exits[0, np.searchsorted(DISTANCE_EDGES, distance, side="right") - 1] = round(share * 1000)
+    none = np.zeros((1, 6))
+    return Spectrum(
+        wavelengths=np.array([550.0]),
+        rays=1000,
+        surface=np.array([0.04]),
+        subsurface=np.array([share]),
+        **{each: none for each in light_fields()},
+        exit_counts=exits,
+    )
+
+
+def light_fields():
+    """Fields of a spectrum that a tan line does not look at."""
+    known = {"wavelengths", "rays", "surface", "subsurface", "exit_counts"}
+    return [each for each in Spectrum.__dataclass_fields__ if each not in known]
+
+
+def test_half_of_a_ring_lies_beyond_a_line_through_it_and_none_beyond_its_reach():
+    crossed = edge.crossing(ring(2.0, 0.5), np.array([0.0, 1.0, 2.2, 50.0]))[:, 0]
+    assert crossed[0] == pytest.approx(0.25)
+    assert crossed[1] == pytest.approx(0.5 * np.arccos(0.5) / np.pi, rel=0.05)
+    assert crossed[2] == crossed[3] == 0.0
+
+
+def test_a_line_between_like_skins_is_no_line():
+    one = ring(2.0, 0.5)
+    found = edge.edge(one, one, np.ones((3, 1)))
+    assert found.cost == pytest.approx(np.zeros(found.places.size), abs=1e-9)
+    assert found.visible_to == 0.0
+
+
+def test_light_crosses_a_line_as_far_as_the_ring_reaches():
+    found = edge.edge(ring(2.0, 0.5), ring(2.0, 0.25), np.ones((3, 1)))
+    assert 1.9 < found.visible_to < 2.1
+    assert found.mean_within(1.0) > found.mean_within(3.0) > 0.0
+    middle = found.places.size // 2
+    assert found.true[middle - 1 : middle + 1].mean() == pytest.approx(0.04 + 0.375, rel=1e-3)
+
+
+def row(what: str) -> measures.Row:
+    return measures.Row(what, np.array([0.1, 0.3]), np.array([1.0, 3.0]), 0.02, 0.5, None, 1.0)
+
+
+def findings(render: float | None) -> report.Findings:
+    full = Quadrature(np.array([550.0]), np.ones((3, 1)))
+    choices = [("all", full), ("few", full)]
+    return report.Findings(
+        wavelengths=[row("all"), row("few")],
+        gauss=[row("gauss")],
+        rays=[row("rays")],
+        model=[row("model")],
+        choices=choices,
+        presets=[row("preset")],
+        lines=[edge.edge(ring(2.0, 0.5), ring(2.0, 0.3), np.ones((3, 1)))] * 4,
+        profiles=[ring(2.0, 0.5)] * 4,
+        walked=0.3,
+        chance=0.25,
+        solver=0.01,
+        bands=np.array([0.5, 2.0, 0.5]),
+        render=render,
+    )
+
+
+@pytest.mark.parametrize(("render", "sentence"), [(1.3, "in 1.3 times"), (None, "not measured")])
+def test_the_page_has_every_row_and_no_number_missing(render, sentence):
+    page = report.markdown(findings(render), datetime.date(2026, 1, 2), 60.0)
+    assert sentence in page and "2026-01-02" in page and "1/100 of the time" in page
+    for each in ("all", "few", "gauss", "rays", "model", "preset"):
+        assert f"| {each} | 0.20, 0.30 | 2.0, 3.0 | 0.020 | 0.50 |  | 1.0 |" in page
+    assert "{" not in page and "nan" not in page
+    tables = [part.split("\n") for part in page.split("\n\n") if part.startswith("|")]
+    for lines in tables:
+        assert len({line.count("|") for line in lines}) == 1
+
+
+def test_with_fewer_rays_there_is_more_noise_in_less_time():
+    fewer = measures.with_rays(row("few"), "fewer", measures.RAYS // 4)
+    assert (fewer.noise, fewer.walk) == pytest.approx((0.04, 0.125))
+    assert fewer.what == "fewer"
+
+
+def test_presets_are_found_among_the_wavelengths():
+    rows = [row(what) for what, _ in simplifications.CHOICES]
+    names = [each.what.split()[0] for each in simplifications.preset_rows(rows)]
+    assert names == ["small", "standard", "small", "standard"]
+
+
+def test_the_page_shipped_has_the_rows_of_today():
+    page = (ROOT / simplifications.DOCUMENT).read_text(encoding="utf-8")
+    names = [what for what, _ in [*simplifications.CHOICES, *simplifications.GAUSS]]
+    for name in [*names, *(case.what for case in simplifications.CASES)]:
+        assert f"| {name} |" in page
+
+
+@pytest.mark.slow
+def test_ctrl_c_leaves_the_page_alone(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-m", "examples.simplifications"]
+    running = subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(12.0)
+    running.send_signal(signal.SIGINT)
+    _, said = running.communicate(timeout=60.0)
+    assert running.returncode == 130
+    assert said.rstrip().endswith("cancelled")
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,195 @@
+"""Colour from few wavelengths: the shipped quadratures and how they are chosen."""
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from examples.simplifications.light import GRID, metrics, reflectances
+from examples.simplifications.quadrature import gauss, skin_colours
+from examples.simplifications.variants import whole
+from hylios import colour
+from hylios.errors import InputError
+from hylios.quadrature import FEWEST, MOST, Colours, choose, skin_quadrature
+from hylios.specimen import EPIDERMIS, SPECIMENS
+
+COUNTS = range(FEWEST, MOST + 1)
+
+
+@pytest.fixture(scope="module")
+def held_out():
+    """Spectra (4, N) of S1 to S4, which no quadrature was chosen by, and their colours."""
+    spectra = reflectances(list(SPECIMENS.values()), GRID, whole)
+    return spectra, colour.linear_rec709(GRID, spectra)
+
+
+def at(wavelengths, spectra):
+    return spectra[:, np.searchsorted(GRID, wavelengths)]
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_grey_stays_that_grey(count):
+    found = skin_quadrature(count)
+    assert found.wavelengths.shape == (count,) and found.weights.shape == (3, count)
+    assert np.all(np.diff(found.wavelengths) > 0)
+    assert 400.0 <= found.wavelengths[0] and found.wavelengths[-1] <= 700.0
+    for grey in (0.0, 0.18, 1.0):
+        assert found.weights @ np.full(count, grey) == pytest.approx([grey] * 3, abs=1e-14)
+
+
+@pytest.mark.parametrize("count", COUNTS)
+def test_noise_is_no_more_than_with_61_wavelengths(count, held_out):
+    """At the same number of rays in all: variance of the colour, as a squared CIEDE2000."""
+    spectra, colours = held_out
+
+    def variance(wavelengths, weights):
+        reflectance = at(wavelengths, spectra)
+        rays = 1.0 / wavelengths.size
+        covariance = np.einsum(
+            "ik,sk,jk->sij", weights, reflectance * (1.0 - reflectance) / rays, weights
+        )
+        return np.einsum("sij,sij->s", metrics(colours), covariance)
+
+    found = skin_quadrature(count)
+    even = np.arange(400.0, 701.0, 5.0)
+    dense = variance(even, colour.rec709_weights(even))
+    assert np.all(variance(found.wavelengths, found.weights) < dense)
+
+
+@pytest.mark.parametrize(("count", "most"), [(4, 0.3), (6, 0.15), (8, 0.05), (16, 0.03)])
+def test_colours_of_skins_held_out(count, most, held_out):
+    spectra, colours = held_out
+    found = skin_quadrature(count)
+    missed = colour.difference(at(found.wavelengths, spectra) @ found.weights.T, colours)
+    assert missed.max() < most
+    even = np.linspace(400.0, 700.0, count)
+    between = np.array([np.interp(even, GRID, each) for each in spectra])
+    assert missed.max() < colour.difference(colour.linear_rec709(even, between), colours).min()
+
+
+def test_skins_far_outside_those_chosen_by():
+    """No melanin, no blood, much blood, other haemoglobins: none is off by what an eye can see."""
+    usual = SPECIMENS["S3"]
+    forms = ("melanosomes", "colloidal_melanin")
+    skins = [
+        replace(usual, **{f"{layer}_{form}": 0.0 for layer in EPIDERMIS for form in forms}),
+        replace(usual, papillary_blood=0.0, reticular_blood=0.0),
+        replace(usual, papillary_blood=20.0, reticular_blood=20.0),
+        replace(usual, oxygenated_blood=0.0),
+        replace(usual, methemoglobin=30.0),
+        replace(usual, sulfhemoglobin=10.0),
+        replace(SPECIMENS["S4"], eumelanin_concentration=150.0),
+    ]
+    spectra = reflectances(skins, GRID, whole)
+    found = skin_quadrature(8)
+    colours = colour.linear_rec709(GRID, spectra)
+    missed = colour.difference(at(found.wavelengths, spectra) @ found.weights.T, colours)
+    assert missed.max() < 0.7
+
+
+def colours_of(reflectances, weights=None, wavelengths=None):
+    size = reflectances.shape[1]
+    if weights is None:
+        weights = np.random.default_rng(3).uniform(0.5, 1.5, (3, size))
+        weights /= weights.sum(axis=1, keepdims=True)
+    grid = np.arange(size, dtype=float) if wavelengths is None else wavelengths
+    return Colours(grid, weights, reflectances, np.tile(np.eye(3), (len(reflectances), 1, 1)))
+
+
+def test_as_many_wavelengths_as_the_spectra_have_degrees_of_freedom_are_enough():
+    """Lines between 4 knots: with 4 wavelengths there is no error, whatever the weights."""
+    random = np.random.default_rng(1)
+    knots = random.uniform(0.1, 0.9, (50, 4))
+    spectra = np.array([np.interp(np.arange(25), [0, 8, 16, 24], each) for each in knots])
+    problem = colours_of(spectra)
+    found = choose(problem, 4, rays=1e12)[-1]
+    picked = spectra[:, found.wavelengths.astype(int)]
+    assert picked @ found.weights.T == pytest.approx(spectra @ problem.weights.T, abs=1e-5)
+
+
+def test_two_wavelengths_are_the_best_pair_of_all():
+    """Against every pair, its weights by least squares with the sum built in."""
+    random = np.random.default_rng(2)
+    spectra = 0.5 + 0.1 * np.cumsum(random.normal(size=(40, 12)), axis=1)
+    problem = colours_of(spectra)
+    goal = spectra @ problem.weights.T
+
+    def error(first, second):
+        across = spectra[:, [first]] - spectra[:, [second]]
+        rest = goal - spectra[:, [second]]
+        weight = np.linalg.lstsq(across, rest, rcond=None)[0]
+        return float(np.mean(np.sum((across @ weight - rest) ** 2, axis=1)))
+
+    best = min(error(*pair) for pair in combinations(range(12), 2))
+    found = choose(problem, 2, rays=1e12)[-1]
+    missed = spectra[:, found.wavelengths.astype(int)] @ found.weights.T - goal
+    assert np.mean(np.sum(missed**2, axis=1)) == pytest.approx(best, rel=1e-6)
+
+
+def test_few_rays_make_for_even_weights():
+    """With noise all that counts, a grey spectrum's rays are shared by all wavelengths alike."""
+    problem = colours_of(np.full((5, 6), 0.5))
+    found = choose(problem, 3, rays=1.0)[-1]
+    assert found.weights == pytest.approx(np.full((3, 3), 1.0 / 3.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("count", [2, 5, 9])
+def test_gauss_is_exact_for_polynomials(count):
+    """Each channel to the degree count - 1, their sum X + Y + Z to twice that and one more."""
+    found = gauss(count)
+    full = colour.rec709_weights(GRID)
+    centred = (GRID - 560.0) / 200.0
+    for degree in range(count):
+        expected = full @ centred**degree
+        nodes = ((found.wavelengths - 560.0) / 200.0) ** degree
+        assert found.weights @ nodes == pytest.approx(expected, abs=1e-9)
+    weight = colour.xyz_weights(GRID).sum(axis=0)
+    to_xyz = np.linalg.lstsq(full.T, weight, rcond=None)[0]
+    degree = 2 * count - 1
+    found_sum = to_xyz @ found.weights @ ((found.wavelengths - 560.0) / 200.0) ** degree
+    # White is made white in the fourth digit, which their sum does not share.
+    assert found_sum == pytest.approx(weight @ centred**degree, rel=2e-3)
+
+
+def test_wavelengths_come_from_those_allowed():
+    allowed = np.arange(12) % 3 == 1
+    spectra = np.random.default_rng(6).uniform(0.1, 0.9, (20, 12))
+    for each in choose(colours_of(spectra), 4, allowed=allowed):
+        assert np.all(np.isin(each.wavelengths, [1.0, 4.0, 7.0, 10.0]))
+
+
+def test_a_metric_is_the_difference_squared(held_out):
+    _, colours = held_out
+    error = 1e-4 * np.random.default_rng(4).normal(size=colours.shape)
+    squared = np.einsum("si,sij,sj->s", error, metrics(colours), error)
+    assert np.sqrt(squared) == pytest.approx(colour.difference(colours, colours + error), rel=0.02)
+
+
+@pytest.mark.slow
+def test_the_shipped_table_is_as_good_as_a_new_choice():
+    """On skins that neither was chosen by; a choice by fewer skins should do no better."""
+    judges = skin_colours(40, seed=3)
+    goal = judges.reflectances @ judges.weights.T
+
+    def error(found):
+        missed = at(found.wavelengths, judges.reflectances) @ found.weights.T - goal
+        return np.mean(np.einsum("si,sij,sj->s", missed, judges.metrics, missed))
+
+    allowed = (GRID >= 400.0) & (GRID <= 700.0)
+    for made in choose(skin_colours(40, seed=2), 8, allowed=allowed)[FEWEST - 1 :]:
+        assert error(skin_quadrature(made.wavelengths.size)) < 1.2 * error(made)
+
+
+@pytest.mark.parametrize(
+    ("count", "sentence"),
+    [
+        (3, "number of wavelengths is 3; allowed is 4 to 16."),
+        (17, "number of wavelengths is 17; allowed is 4 to 16."),
+        (8.5, "number of wavelengths is 8.5; allowed are whole numbers, 4 to 16."),
+    ],
+)
+def test_other_numbers_of_wavelengths_are_refused(count, sentence):
+    with pytest.raises(InputError) as error:
+        skin_quadrature(count)
+    assert str(error.value) == sentence

@@ -27,7 +27,9 @@ def require_whole(name: str, value: float, low: int, high: int) -> int:
     InputError
         If it is not.
     """
-    require_range(name, value, low, high)
+    given = f"{value:g}" if isinstance(value, float) else value
+    if not low <= value <= high:
+        raise InputError(f"{name} is {given}; allowed is {low} to {high}.")
     if value != int(value):
-        raise InputError(f"{name} is {value:g}; allowed are whole numbers, {low:g} to {high:g}.")
+        raise InputError(f"{name} is {given}; allowed are whole numbers, {low} to {high}.")
     return int(value)

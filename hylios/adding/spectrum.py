@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.adding.solver import NODES, Reflectance, solve
-from hylios.errors import InputError
 from hylios.specimen import Specimen
-from hylios.spectra import Figures
+from hylios.spectra import Figures, figures, require_wavelengths
 from hylios.tissue import stack
 
 
@@ -51,9 +50,7 @@ def spectrum(
         If a wavelength, the angle or the number of nodes is out of range, or the melanosomes'
         shape or refractive index lies outside the table of survival.
     """
-    asked = np.atleast_1d(np.asarray(wavelengths, dtype=float))
-    if asked.ndim != 1 or asked.size == 0:
-        raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
+    asked = require_wavelengths(wavelengths, known or figures())
     stacks = [stack(specimen, each, known=known, chosen=chosen) for each in asked]
     found = solve(stacks, angle, nodes)
     return Spectrum(found.surface, found.subsurface, found.transmittance, asked)

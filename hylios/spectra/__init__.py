@@ -119,6 +119,26 @@ def replaced(known: Figures, name: str, path: Path) -> Figures:
     return MappingProxyType({**known, name: own})
 
 
+def require_wavelengths(wavelengths: Iterable[float] | float, known: Figures) -> np.ndarray:
+    """The wavelengths in nm as an array (W,), if every figure has them.
+
+    Raises
+    ------
+    InputError
+        If they are no list of numbers, there is none, or one lies outside a figure.
+    """
+    listed = [wavelengths] if np.isscalar(wavelengths) else wavelengths
+    try:
+        asked = np.array(list(listed), dtype=float)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        asked = np.empty(0)
+    if asked.ndim != 1 or asked.size == 0:
+        raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
+    for each in known.values():
+        each.at(asked)
+    return asked
+
+
 def estimates_within(known: Figures, names: Iterable[str], wavelengths: np.ndarray) -> list[str]:
     """One line for each part of the named figures that is an estimate at some wavelength, nm."""
     return [

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError, require_range, require_whole
+from hylios.errors import require_range, require_whole
 from hylios.specimen import Specimen
-from hylios.spectra import Figures
+from hylios.spectra import Figures, figures, require_wavelengths
 from hylios.tissue import ABSORBERS, PARTS, Stack, absorbers, stack
 from hylios.transport.generator import stream
 from hylios.transport.kernels import (
@@ -272,9 +272,7 @@ def spectrum(
     InputError
         If a wavelength, the angle or the number of rays is out of range.
     """
-    asked = np.atleast_1d(np.asarray(wavelengths, dtype=float))
-    if asked.ndim != 1 or asked.size == 0:
-        raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
+    asked = require_wavelengths(wavelengths, known or figures())
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     seed = require_whole("seed", seed, 0, 2**63)
     threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)

@@ -162,7 +162,7 @@ def test_what_cannot_be_drawn_is_refused_in_a_sentence(tmp_path):
         text=True,
     )
     assert ended.returncode == 2
-    assert ended.stderr == "error: number of rays is 0; allowed is 1 to 1e+08.\n"
+    assert ended.stderr == "error: number of rays is 0; allowed is 1 to 100000000.\n"
 
 
 @pytest.mark.slow

@@ -170,7 +170,7 @@ def test_fresnel_limits():
     ("arguments", "sentence"),
     [
         ({"angle": 90.0}, "angle of incidence is 90 degrees; allowed is 0 to 89.99 degrees."),
-        ({"rays": 0}, "number of rays is 0; allowed is 1 to 1e+10."),
+        ({"rays": 0}, "number of rays is 0; allowed is 1 to 10000000000."),
         ({"rays": 1.5}, "number of rays is 1.5; allowed are whole numbers"),
         ({"seed": -1}, "seed is -1"),
         ({"threads": -1}, "number of threads is -1"),

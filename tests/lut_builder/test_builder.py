@@ -217,7 +217,7 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
         ("check {}/none.exr --seed -1", "seed is -1"),
         ("check {}/none.exr --threads 0", "number of threads is 0"),
         ("build --knots 3,3,3,3,3 -o {}/t.exr", "number of axes is 5; allowed is 1 to 4."),
-        ("build --rays 1 -o {}/t.exr", "number of rays is 1; allowed is 100 to 1e+09."),
+        ("build --rays 1 -o {}/t.exr", "number of rays is 1; allowed is 100 to 1000000000."),
         ("build --step 0 -o {}/t.exr", "step is 0 nm; allowed is 1 to 100 nm."),
         ("build --mmd 0 -o {}/t.exr", "MMD is 0 SED"),
         ("build -o {}/no/t.exr", "cannot be written: No such file or directory"),

@@ -18,7 +18,7 @@ from hylios.errors import InputError, require_range, require_whole
 from hylios.tissue import Layer, Stack
 
 NODES = 22
-"""Directions by default: found within 2e-4 of what many more give, 1e-4 rms."""
+"""Directions by default: within 2.5e-4 of what many more give, 1e-4 rms."""
 
 TOGETHER = 64
 """Stacks solved at once, for their matrices to stay in a processor's cache."""

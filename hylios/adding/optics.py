@@ -167,14 +167,14 @@ def _media(made: Directions, found: Figures, shared: Pattern) -> dict[int, Mediu
     media: dict[tuple, Medium] = {}
     for rank, kinds, anisotropy in keys:
         if is_medium(kinds) and (rank, kinds, anisotropy) not in media:
-            moments = {
-                "melanosomes": lambda: melanosome_moments(
-                    found.scattering_angle, found.exponential
-                ),
-                "scatterers": lambda each=anisotropy: henyey_greenstein_moments(each),
-                "fibres": rayleigh_moments,
-            }
-            media[rank, kinds, anisotropy] = medium(
-                integrals(made, rank + 1, ORDER), [moments[kind]() for kind in kinds]
-            )
+            moments = [each for kind in kinds for each in _moments(kind, found, anisotropy)]
+            media[rank, kinds, anisotropy] = medium(integrals(made, rank + 1, ORDER), moments)
     return {number: media[key] for number, key in enumerate(keys) if key in media}
+
+
+def _moments(kind: str, found: Figures, anisotropy: float) -> list[np.ndarray]:
+    """Legendre moments of a kind of scatterer; of melanosomes met once and twice."""
+    if kind == "melanosomes":
+        once = melanosome_moments(found.scattering_angle, found.exponential)
+        return [once, once**2]
+    return [henyey_greenstein_moments(anisotropy) if kind == "scatterers" else rayleigh_moments()]

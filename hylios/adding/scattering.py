@@ -123,7 +123,7 @@ def stacked(media: Sequence[Medium]) -> Medium:
     )
 
 
-def response(through: Medium, thickness, absorption, events):
+def response(through: Medium, thickness, extinction, kept):
     """Reflection and transmission of a homogeneous layer, the same from both sides.
 
     With s and d the sum and difference of a value for light going down and up, s' = B d and
@@ -136,19 +136,18 @@ def response(through: Medium, thickness, absorption, events):
 
     Parameters
     ----------
-    thickness, absorption : (S,) arrays
-    events : sequence of (rate, survival)
-        (S,) arrays for each kind of scatterer, as in the medium.
+    thickness, extinction : (S,) arrays
+    kept : sequence of (S,) arrays
+        Of the extinction, what goes on in directions by each kind of scattering in the medium.
 
     Returns
     -------
     reflection, transmission : (S, M, M) arrays
     """
     wide = (..., None, None)
-    lost = (absorption + sum(rate for rate, _ in events))[wide]
-    kept = [(rate * survival)[wide] for rate, survival in events]
     sums, differences = (
-        lost * through.mass - sum(each * kernel for each, kernel in zip(kept, kinds, strict=True))
+        extinction[wide] * through.mass
+        - sum(each[wide] * kernel for each, kernel in zip(kept, kinds, strict=True))
         for kinds in (through.even, through.odd)
     )
     lower = _cholesky(differences)

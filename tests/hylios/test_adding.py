@@ -21,6 +21,7 @@ from hylios.tissue import Layer, Stack, stack
 from hylios.transport.interfaces import fresnel
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import with_survival
+from hylios.transport.survival_table import quadrature
 from hylios.transport.walk import TRANSMITTED
 
 WAVELENGTHS = np.array([250.0, 300.0, 400.0, 460.0, 550.0, 650.0, 800.0, 1050.0, 1450.0, 2200.0])
@@ -203,11 +204,11 @@ def test_seldom_met_melanosomes_absorb_at_their_rate():
     assert found == pytest.approx(np.exp(-8.0 * 0.1 * 0.7), abs=1e-6)
 
 
-@pytest.mark.parametrize("survival", [0.6, 0.95])
+@pytest.mark.parametrize("survival", [0.8, 0.95])
 @pytest.mark.parametrize(("name", "part"), [("S1", 3), ("S3", 3), ("S4", 1), ("S4", 3)])
 def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part, survival):
     """One layer alone, straight light: what the walk's slab lets through, within 4 standard errors
-    and 1 % of its extinction, which `hylios.adding.melanosomes` gives as its own error."""
+    and .5 % of its extinction, which `hylios.adding.melanosomes` gives as its own error."""
     layer = replace(stack(SPECIMENS[name], 550.0).layers[part], absorption=0.0)
 
     def off(exponent):
@@ -220,7 +221,7 @@ def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part,
     found = solve([slab], 30.0).transmittance[0]
     walked = (trace(slab, rays=rays, angle=30.0).outcome == TRANSMITTED).mean()
     error = np.sqrt(walked * (1.0 - walked) / rays) / walked
-    assert abs(np.log(found / walked)) < 4.0 * error + 0.01 * abs(np.log(walked))
+    assert abs(np.log(found / walked)) < 4.0 * error + 0.005 * abs(np.log(walked))
 
 
 def test_tabulated_survival_is_the_simulated_one():
@@ -235,6 +236,14 @@ def test_tabulated_survival_is_the_simulated_one():
                 if layer.encounter > 0.0:
                     found = survival_in_melanosome(layer, plain.melanin_index)
                     assert 1.0 - found == pytest.approx(1.0 - expected.survival, rel=0.006)
+
+
+def test_the_table_keeps_the_moments_of_what_it_is_made_from():
+    lengths = np.random.default_rng(8).gamma(2.0, size=1000)
+    points, weights = quadrature(lengths, 6)
+    for power in range(12):
+        expected = np.mean(lengths**power)
+        assert weights @ points**power == pytest.approx(expected, rel=1e-9)
 
 
 def test_survival_falls_smoothly_from_1():
@@ -300,7 +309,7 @@ def test_nodes_beyond_the_default_change_little():
         usual, finer = (
             spectrum_without_noise(SPECIMENS[name], WAVELENGTHS, nodes=n) for n in (22, 48)
         )
-        assert np.abs(usual.total - finer.total).max() < 1e-3
+        assert np.abs(usual.total - finer.total).max() < 3e-4
 
 
 @pytest.mark.parametrize(

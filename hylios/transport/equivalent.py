@@ -2,6 +2,7 @@
 
 - One optical depth is drawn for all attenuators together and spent across layers, then which of
   them it is; distances have no memory, so this is what the nearest of one distance each would be.
+  So is the optical depth of melanin that a ray can bear, spent in the melanosomes that it meets.
 - Algorithms 1 and 2 and azimuths are drawn without their loops (`hylios.transport.sampling`).
 - A melanosome's place and orientation are drawn only where they could matter: where the layer's
   face or the melanosome before is near enough to touch. Elsewhere the probability of leaving it
@@ -10,8 +11,12 @@
   the ray survived.
 - Where a melanosome is drawn again, the other attenuators keep the distances that they had, as in
   the walk as printed: all beyond the first melanosome.
+- A path in a melanosome whose place was drawn is walked only where melanin allows a ray less than
+  the longest path of the table.
 
-All of it is exact but for the table; see there how nearly it is.
+Each is exact but for the table, whose chance of absorption is right to some 4e-4 of itself, and
+for the one path in two million that is longer than its longest. Measured at 550 nm with 1e7 rays
+either way, neither S3 nor S4 differs from the walk as printed in how rays end (chi squared).
 """
 
 import math

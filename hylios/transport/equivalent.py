@@ -2,6 +2,7 @@
 
 - One optical depth is drawn for all attenuators together and spent across layers, then which of
   them it is; distances have no memory, so this is what the nearest of one distance each would be.
+  So is the optical depth of melanin that a ray can bear, spent in the melanosomes that it meets.
 - Algorithms 1 and 2 and azimuths are drawn without their loops (`hylios.transport.sampling`).
 - A melanosome's place and orientation are drawn only where they could matter: where the layer's
   face or the melanosome before is near enough to touch. Elsewhere the probability of leaving it
@@ -10,8 +11,12 @@
   the ray survived.
 - Where a melanosome is drawn again, the other attenuators keep the distances that they had, as in
   the walk as printed: all beyond the first melanosome.
+- A path in a melanosome whose place was drawn is walked only where melanin allows a ray less than
+  the longest path of the table.
 
-All of it is exact but for the table; see there how nearly it is.
+Each is exact but for the table, whose chance of absorption is right to some 4e-4 of itself, and
+for the one path in two million that is longer than its longest. Measured at 550 nm with 1e7 rays
+either way, neither S3 nor S4 differs from the walk as printed in how rays end (chi squared).
 """
 
 import math
@@ -64,7 +69,8 @@ from hylios.transport.walk import (
 )
 
 NONE, UNSEEN, SEEN = range(3)
-"""What is known of the melanosome or complex met before in this traversal of a layer."""
+"""What is known of the melanosome or complex met before in this traversal of a layer. It is kept
+as a tuple: this, where it was hit, along which ray and chord, its centre and its axis."""
 
 
 @part
@@ -81,9 +87,7 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
         return SURFACE, -1, position, ray
 
     here, fibres_ahead = 0, True
-    # what was met before: where it was hit, along which ray and chord, its centre and axis
-    before, before_hit, before_ray, before_chord = NONE, position, ray, 1.0
-    before_centre, before_axis = position, ray
+    before = (NONE, position, ray, 1.0, position, ray)
     depth, melanin_depth = free_path(state, 1.0), free_path(state, 1.0)
     for _ in range(MOST_EVENTS):
         others = layers[here, ABSORPTION] + layers[here, SCATTERING]
@@ -105,49 +109,12 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
             depth = free_path(state, 1.0)
             event = _kind(layers, here, total * uniform(state))
             if event == MELANOSOME and not _out_of_touch(
-                layers, here, added(position, distance, ray), before, before_hit
+                layers, here, added(position, distance, ray), before
             ):
                 seen = True
-                # until one has room, or another attenuator's distance is shorter
-                other, path, event = -1.0, distance, INTERFACE
-                for _draw in range(MOST_DRAWS):
-                    radius = layers[here, COMPLEX_RADIUS]
-                    axis, point, offset = drawn_body(state, ray, half_axes, radius)
-                    centre = added(added(position, path, ray), 1.0, offset)
-                    room = fits(layers, here, centre, axis)
-                    if room and before != NONE:
-                        between = added(centre, -1.0, before_hit)
-                        size = 3.0 * max(radius, half_axes[1])
-                        if dot(between, between) < size * size:
-                            if before == UNSEEN:
-                                before = SEEN
-                                before_axis, before_centre = _recalled(
-                                    state,
-                                    before_hit,
-                                    before_ray,
-                                    before_chord,
-                                    half_axes,
-                                    radius,
-                                    optics,
-                                )
-                            room = not overlap(
-                                centre, axis, before_centre, before_axis, half_axes, radius
-                            )
-                    if room:
-                        distance, event = path, MELANOSOME
-                        break
-                    if other < 0.0:
-                        other = distance + free_path(state, others)
-                    path = free_path(state, layers[here, ENCOUNTER])
-                    if path >= min(face, other):
-                        break
-                if event == INTERFACE:
-                    distance = face
-                    if other < face:
-                        distance = other
-                        event = _kind(
-                            layers, here, layers[here, ENCOUNTER] + others * uniform(state)
-                        )
+                distance, event, axis, point, centre, before = _placed(
+                    state, layers, here, position, ray, distance, face, others, before, optics
+                )
         else:
             distance, event = face, INTERFACE
             depth -= total * face
@@ -156,7 +123,7 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
             return LOST, here, position, ray
         position = added(position, distance, ray)
         if event == INTERFACE:
-            fibres_ahead, before = True, NONE
+            fibres_ahead, before = True, (NONE, position, ray, 1.0, position, ray)
             # at the face itself, not where rounding has put the ray
             face = layers[here, BOTTOM] if ray[2] > 0.0 else layers[here, TOP]
             position = (position[0], position[1], face)
@@ -177,9 +144,7 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
                 melanin_depth -= layers[here, MELANOSOME_DEPTH]
             if melanin_depth < 0.0 or not survived:
                 return ABSORBED_IN_MELANOSOME, here, position, ray
-            before = SEEN if seen else UNSEEN
-            before_hit, before_ray, before_chord = position, ray, chord
-            before_centre, before_axis = centre, axis
+            before = (SEEN if seen else UNSEEN, position, ray, chord, centre, axis)
             if scale > 0.0:
                 if exponential:
                     cosine = math.cos(exponential_angle(state, scale))
@@ -208,7 +173,7 @@ def _kind(layers, here, drawn):
 
 
 @part
-def _out_of_touch(layers, here, hit, before, before_hit):
+def _out_of_touch(layers, here, hit, before):
     """Whether what is hit there can neither cross a face nor overlap what was met before.
 
     Nothing reaches further than the size of a body from where it is hit.
@@ -216,8 +181,54 @@ def _out_of_touch(layers, here, hit, before, before_hit):
     size = 2.0 * max(layers[here, SEMI_MAJOR], layers[here, COMPLEX_RADIUS])
     if hit[2] - layers[here, TOP] < size or layers[here, BOTTOM] - hit[2] < size:
         return False
-    between = added(hit, -1.0, before_hit)
-    return before == NONE or dot(between, between) >= 4.0 * size * size
+    between = added(hit, -1.0, before[1])
+    return before[0] == NONE or dot(between, between) >= 4.0 * size * size
+
+
+@part
+def _placed(state, layers, here, position, ray, distance, face, others, before, optics):
+    """A melanosome or complex first tried at a distance, and drawn again until it has room.
+
+    Returns distance and kind of the event, which is another's where that comes first; axis, point
+    hit and centre of what was placed; and what is known by now of the one met before.
+    """
+    half_axes = (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR])
+    path, other = distance, -1.0
+    axis, point, centre = ray, ray, position
+    for _ in range(MOST_DRAWS):
+        axis, point, offset = drawn_body(state, ray, half_axes, layers[here, COMPLEX_RADIUS])
+        centre = added(added(position, path, ray), 1.0, offset)
+        if fits(layers, here, centre, axis):
+            free, before = _is_free(state, layers, here, centre, axis, before, optics)
+            if free:
+                return path, MELANOSOME, axis, point, centre, before
+        if other < 0.0:
+            other = distance + free_path(state, others)
+        path = free_path(state, layers[here, ENCOUNTER])
+        if path >= min(face, other):
+            break
+    if face <= other:
+        return face, INTERFACE, axis, point, centre, before
+    event = _kind(layers, here, layers[here, ENCOUNTER] + others * uniform(state))
+    return other, event, axis, point, centre, before
+
+
+@part
+def _is_free(state, layers, here, centre, axis, before, optics):
+    """Whether a body does not overlap the one met before, and what is known of that by now."""
+    known, hit, ray, chord, before_centre, before_axis = before
+    half_axes, radius = (
+        (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]),
+        layers[here, COMPLEX_RADIUS],
+    )
+    between = added(centre, -1.0, hit)
+    size = 3.0 * max(radius, half_axes[1])
+    if known == NONE or dot(between, between) >= size * size:
+        return True, before
+    if known == UNSEEN:
+        before_axis, before_centre = _recalled(state, hit, ray, chord, half_axes, radius, optics)
+        before = (SEEN, hit, ray, chord, before_centre, before_axis)
+    return not overlap(centre, axis, before_centre, before_axis, half_axes, radius), before
 
 
 @part

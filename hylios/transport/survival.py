@@ -6,8 +6,8 @@ number for a size, a shape, an absorption coefficient and a ratio of refractive 
 mean of exp(-mu L) over the lengths L of paths through a melanosome that absorbs nothing.
 
 How nearly: the orientations and points hit are spread evenly over a lattice, what happens inside
-is drawn. Over eight lattices the chance of absorption has a standard error of 4e-4 of itself or
-less, at any coefficient; interpolation between ratios adds 3e-4 at most.
+is drawn. Over eight streams of random numbers the chance of absorption has a standard error of
+3e-4 of itself or less, at any coefficient; interpolation between ratios moves it by at most 4e-4.
 """
 
 import math

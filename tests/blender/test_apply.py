@@ -247,7 +247,7 @@ def test_days_and_frames_out_of_order(body):
 
 def test_dose_that_is_no_number(body):
     body.skin_tan.exposures[0].dose = float("nan")
-    refused("a dose is negative or not finite")
+    refused("a dose is negative, not finite or too large")
 
 
 def test_tables_that_cannot_be_used(body, table_path, tmp_path):

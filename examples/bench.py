@@ -17,7 +17,7 @@ from lut_builder.build import PRESETS, build
 from lut_builder.states import skin
 
 REPEATS = 5
-RAYS = {False: 4000, True: 1000}
+RAYS = {False: 20_000, True: 1000}
 """Per wavelength, of light as the thesis prints it (True) and in exact equivalents."""
 
 VISIBLE = np.arange(400.0, 701.0, 5.0)

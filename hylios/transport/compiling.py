@@ -5,7 +5,8 @@ calls from other files. But it does keep apart functions that are closures over 
 each kernel here is one over a digest of all sources of this package.
 
 Arrays are not counted by reference here (numba's `_nrt`): no kernel makes or keeps one, and
-counting, by locked instructions wherever one is passed on, took a third of the time.
+counting, by locked instructions wherever one is passed on, took a third of the time. Nor are
+divisions checked (`error_model`): what could be 0 is tested where it is divided by.
 """
 
 import hashlib
@@ -15,7 +16,7 @@ from typing import Any
 
 from numba import njit
 
-_OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline": True}
+_OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline": True, "error_model": "numpy"}
 
 
 def _digest_of_sources() -> str:

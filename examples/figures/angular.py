@@ -17,7 +17,7 @@ from examples.figures.report import Row, claim
 from hylios.pictures import write_figure
 from hylios.specimen import SPECIMENS
 from hylios.transport.angular import AngularReflectance, brdf
-from hylios.transport.counting import share_error
+from hylios.transport.simulate import share_error
 
 FIGURES = ("6.7", "6.8")
 

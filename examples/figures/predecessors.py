@@ -21,7 +21,8 @@ from hylios.colour import swatch as colour_of_band
 from hylios.pictures import write_figure
 from hylios.predecessors import biospec, donner_jensen
 from hylios.specimen import SPECIMENS
-from hylios.transport.counting import counted, share_error
+from hylios.transport.counting import counted
+from hylios.transport.simulate import share_error
 from hylios.transport.walk import SUBSURFACE, SURFACE
 
 FIGURES = ("6.2", "6.3", "6.4")

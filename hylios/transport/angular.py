@@ -35,8 +35,8 @@ from hylios.errors import require_whole
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack
-from hylios.transport.counting import counted, share_error, skin_key, skin_stack
-from hylios.transport.simulate import Rays
+from hylios.transport.counting import counted, skin_key, skin_stack
+from hylios.transport.simulate import Rays, share_error
 from hylios.transport.walk import SUBSURFACE, SURFACE
 
 MOST_BINS = 1000

@@ -80,12 +80,3 @@ def counted(
     for result in results:
         total += result
     return total
-
-
-def share_error(counts: np.ndarray, rays: int) -> np.ndarray:
-    """Standard error of counts / rays: binomial, with one more ray of either fate.
-
-    So it is not 0 where no ray, or every ray, was counted (Laplace's rule of succession).
-    """
-    share = (counts + 1.0) / (rays + 2.0)
-    return np.sqrt(share * (1.0 - share) / rays)

@@ -10,8 +10,8 @@ from hylios.profile import burley_share_within, burley_width, burley_width_error
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack
-from hylios.transport.counting import counted, share_error, skin_key, skin_stack
-from hylios.transport.simulate import Rays
+from hylios.transport.counting import counted, skin_key, skin_stack
+from hylios.transport.simulate import Rays, share_error
 from hylios.transport.walk import SUBSURFACE
 
 SMALLEST_MM, LARGEST_MM, RINGS = 0.01, 100.0, 60

@@ -218,12 +218,17 @@ class Spectrum:
 
     @property
     def standard_error(self) -> np.ndarray:
-        """Standard error of the reflectance, (W,): binomial, with one more ray of either fate.
+        """Standard error of the reflectance, (W,); not 0 where no ray came back (`share_error`)."""
+        return share_error(self.total * self.rays, self.rays)
 
-        So it is not 0 where no ray, or every ray, came back (Laplace's rule of succession).
-        """
-        share = (self.total * self.rays + 1.0) / (self.rays + 2.0)
-        return np.sqrt(share * (1.0 - share) / self.rays)
+
+def share_error(counts: np.ndarray, rays: int) -> np.ndarray:
+    """Standard error of counts / rays: binomial, with one more ray of either fate.
+
+    So it is not 0 where no ray, or every ray, was counted (Laplace's rule of succession).
+    """
+    share = (counts + 1.0) / (rays + 2.0)
+    return np.sqrt(share * (1.0 - share) / rays)
 
 
 Progress = Callable[[int], object]

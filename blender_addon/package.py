@@ -23,7 +23,7 @@ from hylios.errors import InputError
 
 ADDON = Path(__file__).parent
 HYLIOS = Path(hylios.__file__).parent
-HYLIOS_MODULES = ("__init__.py", "errors.py", "table.py", "tanning.py")
+HYLIOS_PARTS = ("__init__.py", "errors.py", "table.py", "tanning")
 MANIFEST = "blender_manifest.toml"
 # The first day that a zip can hold: the same sources give the same bytes.
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -49,13 +49,23 @@ def build(destination: Path, tables: Path = ADDON / "tables") -> Path:
         return Path(shutil.move(archive, destination / archive.name))
 
 
+def hylios_files() -> list[str]:
+    """Paths within hylios of what the add-on carries of it: modules, and rooms with their data."""
+    found = []
+    for part in HYLIOS_PARTS:
+        files = [HYLIOS / part] if part.endswith(".py") else (HYLIOS / part).rglob("*")
+        wanted = (path for path in files if path.is_file() and "__pycache__" not in path.parts)
+        found += sorted(path.relative_to(HYLIOS).as_posix() for path in wanted)
+    return found
+
+
 def write_wheel(folder: Path) -> Path:
     """Write the wheel of hylios's numpy-only part into a folder and return its path.
 
     Blender keeps an installed wheel as long as its name stays the same, so the version carries
     a digest of what is inside.
     """
-    contents = {f"hylios/{name}": (HYLIOS / name).read_bytes() for name in HYLIOS_MODULES}
+    contents = {f"hylios/{name}": (HYLIOS / name).read_bytes() for name in hylios_files()}
     digest = hashlib.sha256(b"\0".join(contents.values())).hexdigest()[:12]
     version = f"{hylios.__version__}+{digest}"
     information = f"hylios-{version}.dist-info"

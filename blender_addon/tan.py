@@ -6,7 +6,7 @@ import numpy as np
 
 from hylios.errors import InputError, require_range
 from hylios.table import PLANES, SkinTable
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 
 LAST_DAY_LIMIT = 366.0
 # The response jumps where the dose passes the MMD and then climbs in steps; with this many knots
@@ -70,21 +70,19 @@ def tan(
         If a day or dose is out of range, or if the table names no known pigmentation.
     """
     check_days(first_day, last_day)
-    hours = int(np.ceil(24.0 * last_day))
+    rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
     share = np.linspace(0.0, 1.0, COLUMNS)
-    history = simulate(
+    states = states_at(
         Exposures(
             hours=np.array([hour_of(exposure.day) for exposure in exposures], dtype=int),
             doses=share[:, None] * np.array([exposure.dose for exposure in exposures], dtype=float),
         ),
         PIGMENTATIONS[_pigmentation(table)],
+        times=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
         med=med,
-        hours=hours,
     )
-    rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
-    states = _at_hours(history.states, 24.0 * np.linspace(first_day, last_day, rows))
-    appearance = table.lookup(states).astype(np.float32)
+    appearance = table.lookup(np.moveaxis(states, 1, 0)).astype(np.float32)
     return Tan(
         colour=appearance[..., PLANES.index("subsurface_colour"), :],
         profile_width=appearance[..., PLANES.index("profile_width"), :],
@@ -123,10 +121,3 @@ def _pigmentation(table: SkinTable) -> str:
         raise InputError(f"the table's pigmentation is {name!r}; allowed are {allowed}.")
     return name
 
-
-def _at_hours(states: np.ndarray, hours: np.ndarray) -> np.ndarray:
-    """States (rows, columns, 4) at the given hours, from hourly ones (columns, hours, 4)."""
-    low = np.minimum(hours.astype(int), states.shape[1] - 2)
-    fraction = (hours - low)[:, None, None]
-    hourly = np.moveaxis(states, 1, 0)
-    return hourly[low] * (1.0 - fraction) + hourly[low + 1] * fraction

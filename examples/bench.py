@@ -3,15 +3,18 @@
 python -m examples.bench
 """
 
+import multiprocessing
 import os
+import resource
 import statistics
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
 from hylios.specimen import SPECIMENS
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
 from lut_builder.build import PRESETS, build
 from lut_builder.states import skin
@@ -48,6 +51,43 @@ def report(what: str, figures: list[float], unit: str) -> None:
     )
 
 
+def a_year(doses: np.ndarray) -> np.ndarray:
+    """States (..., 366, 4) on each day of a year in steps of an hour, of doses (..., 52) a week."""
+    return states_at(
+        Exposures(168 * np.arange(52), doses),
+        PIGMENTATIONS["low"],
+        times=24.0 * np.arange(366),
+        mmd=2.89,
+        med=1.7,
+    )
+
+
+def many_years(histories: int) -> tuple[float, float, bool]:
+    """Seconds, most memory of this process in MiB, and whether each history equals it alone."""
+    doses = np.random.default_rng(1).uniform(0.0, 30.0, (histories, 52))
+    started = time.perf_counter()
+    states = a_year(doses)
+    seconds = time.perf_counter() - started
+    mebibytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    some = range(0, histories, max(histories // 100, 1))
+    return seconds, mebibytes, all(np.array_equal(states[i], a_year(doses[i])) for i in some)
+
+
+def report_tanning() -> None:
+    """A year of one skin, and of ten thousand in a process of their own."""
+    one = np.random.default_rng(1).uniform(0.0, 30.0, 52)
+    milliseconds = [1e3 * each for each in timed(lambda: a_year(one), 20)]
+    report("tanning, a year in hours, one history", milliseconds, "ms")
+    figures = []
+    for _ in range(3):
+        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as process:
+            figures.append(process.submit(many_years, 10_000).result())
+    seconds, mebibytes, equal = zip(*figures, strict=True)
+    report("tanning, a year in hours, 10,000 histories", list(seconds), "s")
+    report("  memory of that process at most", list(mebibytes), "MiB")
+    print(f"  a hundred of them equal each alone to the last bit: {'yes' if all(equal) else 'NO'}")
+
+
 def main() -> None:
     """Measure and print."""
     print(f"{os.cpu_count()} cores; median, least and most of {REPEATS} runs")
@@ -63,13 +103,7 @@ def main() -> None:
             report(f"light, {name}, 400 to 700 nm, one core, {way}", rates, "rays/s")
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
-    def year(histories):
-        doses = np.linspace(0.0, 30.0, histories)[:, None]
-        exposures = Exposures([0], doses)
-        return simulate(exposures, PIGMENTATIONS["low"], mmd=2.89, med=1.7, hours=8760)
-
-    report("tanning, a year in hours, one history", timed(lambda: year(1)), "s")
-    report("tanning, a year in hours, 1000 histories", timed(lambda: year(1000), 1), "s")
+    report_tanning()
     small = PRESETS["small"]
     report(
         f"table, preset small, {small.states} states, all cores",

@@ -61,7 +61,7 @@ def test_the_zip_holds_what_blender_needs(archive):
         assert manifest["version"] == hylios.__version__
         with opened.open(wheel) as inner, zipfile.ZipFile(inner) as unpacked:
             modules = {name for name in unpacked.namelist() if name.startswith("hylios/")}
-    assert modules == {f"hylios/{name}" for name in package.HYLIOS_MODULES}
+    assert modules == {f"hylios/{name}" for name in package.hylios_files()}
 
 
 def test_the_zip_can_be_installed_and_applied(archive, tmp_path):

@@ -15,12 +15,16 @@ from hylios.tanning import (
     LARGEST_DOSE,
     PIGMENTATIONS,
     Exposures,
+    MelaninDynamics,
     ThicknessDynamics,
     hill,
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
     simulate,
+    simulation,
+    states_at,
 )
+from hylios.tanning.recurrence import no_steps
 
 
 def one_dose(dose, pigmentation="intermediate", hours=720, mmd=2.89, med=1.7):
@@ -116,12 +120,217 @@ def test_thickness_is_bounded_by_its_parameters():
     assert bound == pytest.approx(1.25)
 
 
-def test_many_histories_at_once_equal_each_alone():
+def by_the_letter(doses, dynamics, growing, mmd, med):
+    """Equations 5.4 to 5.12 and 5.20 to 5.27, hour by hour in plain numbers; states (T, 4)."""
+    melanin, thickness = dynamics.steady_state().tolist(), growing.steady_state()
+    start = sum(melanin), thickness
+    chains, response, states = {dynamics: (0.0, 0.0, 0.0), growing: (0.0, 0.0, 0.0)}, {}, []
+    leaving = None
+    for hour, dose in enumerate(doses):
+        for chain, least in ((dynamics, mmd), (growing, med)):
+            energy, rate, signal = chains[chain]
+            energy = dose / least + energy * chain.energy_decay
+            rate = (energy if energy >= 1.0 else 0.0) + rate * chain.signal_rate_decay
+            signal = rate + signal * chain.signal_decay
+            chains[chain] = energy, rate, signal
+            power = signal**chain.hill_exponent
+            response[chain] = power / (power + chain.hill_constant**chain.hill_exponent)
+        if hour:
+            before = list(melanin)
+            for layer in range(3):
+                made = response[dynamics] * dynamics.extra_production[layer]
+                melanin[layer] = made + dynamics.production[layer]
+                kept = dynamics.melanin_decay * (1.0 - leaving[layer])
+                melanin[layer] += kept * before[layer]
+                if layer:
+                    melanin[layer] += leaving[layer - 1] * before[layer - 1]
+            made = response[growing] * growing.extra_production + growing.production
+            thickness = made + thickness * growing.cell_decay
+        rates = zip(dynamics.extra_transfer, dynamics.transfer, strict=True)
+        leaving = [response[dynamics] * extra + usual for extra, usual in rates]
+        states.append([*(each / start[0] for each in melanin), thickness / start[1]])
+    return np.array(states)
+
+
+@pytest.mark.parametrize("name", list(PIGMENTATIONS))
+@pytest.mark.parametrize("hours", [1, 23, 24, 25, 700, 14_000])
+def test_the_equations_to_the_letter(name, hours):
+    """However time is cut into blocks: to rounding."""
+    random = np.random.default_rng(5)
+    when = random.integers(0, hours + 1, 12)
+    doses = random.uniform(0.5, 30.0, 12)
+    by_hour = np.bincount(when, doses, hours + 1)
+    expected = by_the_letter(by_hour, PIGMENTATIONS[name], ThicknessDynamics(), 2.89, 1.7)
+    found = simulate(Exposures(when, doses), PIGMENTATIONS[name], mmd=2.89, med=1.7, hours=hours)
+    assert np.array_equal(found.hours, np.arange(hours + 1))
+    assert np.allclose(found.states, expected, rtol=1e-12, atol=0.0)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    rates=st.lists(st.floats(0.0, 0.5), min_size=12, max_size=12),
+    decays=st.lists(st.floats(0.0, 0.999), min_size=4, max_size=4),
+    exponent=st.floats(0.01, 20.0),
+    constant=st.floats(1e-6, 1e6),
+    dose=st.sampled_from([0.0, 1.0, 30.0, LARGEST_DOSE]),
+)
+def test_any_parameters_give_what_the_equations_say(rates, decays, exponent, constant, dose):
+    parts = zip(*[iter(rates)] * 3, strict=True)
+    production, transfer, extra_production, extra_transfer = (tuple(part) for part in parts)
+    dynamics = MelaninDynamics(
+        (0.01, *production[1:]), transfer, extra_production, extra_transfer, *decays
+    )
+    dynamics = replace(dynamics, hill_exponent=exponent, hill_constant=constant)
+    found = simulate(Exposures([3], [dose]), dynamics, mmd=1.0, med=1.0, hours=60).states
+    assert np.all(np.isfinite(found)) and np.all(found >= 0.0)
+    signal = np.float64(dose) ** exponent
+    if np.isfinite(signal * 60.0**exponent):
+        doses = np.zeros(61)
+        doses[3] = dose
+        with np.errstate(all="ignore"):
+            expected = by_the_letter(doses, dynamics, ThicknessDynamics(), 1.0, 1.0)
+        if np.all(np.isfinite(expected)):
+            assert np.allclose(found, expected, rtol=1e-9, atol=1e-12)
+
+
+def test_states_at_any_times():
+    """In any order, interpolated between two hours, whatever else is asked for."""
+    dynamics, exposures = PIGMENTATIONS["low"], Exposures([0, 30], [[10.0, 5.0], [3.0, 20.0]])
+    hourly = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=200).states
+    times = np.array([200.0, 0.0, 17.25, 17.0, 99.5])
+    found = states_at(exposures, dynamics, times=times, mmd=2.89, med=1.7)
+    between = 0.75 * hourly[:, 17] + 0.25 * hourly[:, 18]
+    expected = [hourly[:, 200], hourly[:, 0], between, hourly[:, 17]]
+    expected.append(0.5 * hourly[:, 99] + 0.5 * hourly[:, 100])
+    assert np.allclose(found, np.stack(expected, axis=1), rtol=1e-15)
+    alone = states_at(exposures, dynamics, times=[17.25], mmd=2.89, med=1.7)
+    assert np.array_equal(alone[:, 0], found[:, 2])
+    nothing = states_at(exposures, dynamics, times=[], mmd=2.89, med=1.7)
+    assert nothing.shape == (2, 0, 4)
+
+
+def test_nothing_is_simulated_past_the_last_time(monkeypatch):
+    simulated = []
+
+    def recorded(steps, histories):
+        simulated.append(steps)
+        return no_steps(steps, histories)
+
+    monkeypatch.setattr(simulation, "no_steps", recorded)
+    late = Exposures([0, 800_000], [10.0, 10.0])
+    found = states_at(late, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
+    assert max(simulated) == 49  # hours 0 to 48
+    early = Exposures([0], [10.0])
+    expected = states_at(early, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
+    assert np.array_equal(found, expected)
+
+
+MELANIN_ERROR = {2: 0.002, 3: 0.0033, 6: 0.011, 12: 0.032, 24: 0.09}
+TOTAL_ERROR = {2: 0.001, 3: 0.0014, 6: 0.0045, 12: 0.015, 24: 0.05}
+THICKNESS_ERROR = {2: 0.0085, 3: 0.0142, 6: 0.030, 12: 0.063, 24: 0.105}
+
+
+@pytest.mark.parametrize("step", list(MELANIN_ERROR))
+def test_longer_steps_give_the_same_curve(step):
+    """Within the error that `states_at` states, at the steps and between them."""
+    random = np.random.default_rng(step)
+    when = random.choice(1440, 11, replace=False)
+    exposures = Exposures(when, random.uniform(0.35, 10.5, (8, 11)))
+    asked = {"times": np.arange(0.0, 1441.0), "mmd": 1.0, "med": 0.6}
+    for dynamics in PIGMENTATIONS.values():
+        hourly = states_at(exposures, dynamics, **asked)
+        apart = states_at(exposures, dynamics, step=step, **asked) - hourly
+        assert np.abs(apart[..., :3]).max() < MELANIN_ERROR[step]
+        assert np.abs(apart[..., :3].sum(axis=-1)).max() < TOTAL_ERROR[step]
+        assert np.abs(apart[..., 3]).max() < THICKNESS_ERROR[step]
+
+
+@pytest.mark.parametrize("step", [1 / 2, 1 / 3, 1 / 60])
+def test_shorter_steps_meet_the_curve_at_every_hour(step):
+    dynamics, exposures = PIGMENTATIONS["high"], Exposures([0, 7], [10.0, 20.0])
+    hourly = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=50)
+    finer = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=50, step=step)
+    assert finer.hours[-1] == pytest.approx(50.0)
+    parts = round(1.0 / step)
+    assert np.allclose(finer.states[::parts], hourly.states, rtol=1e-13)
+    low = np.minimum(hourly.states[:-1], hourly.states[1:])
+    high = np.maximum(hourly.states[:-1], hourly.states[1:])
+    inside = finer.states[parts // 2 : -1 : parts]
+    assert np.all((inside >= low - 1e-12) & (inside <= high + 1e-12))
+
+
+@pytest.mark.parametrize("step", [0, -1, 1.5, 0.4, 25, 1e-3, float("nan"), "1", True])
+def test_a_bad_step_is_named(step):
+    with pytest.raises(InputError, match="step is .* allowed is 1 to 24 in whole numbers"):
+        simulate(Exposures(), PIGMENTATIONS["low"], mmd=1.0, med=1.0, hours=10, step=step)
+
+
+@pytest.mark.parametrize("times", [[-1.0], [np.nan], [1e9], 5.0, [[1.0]]])
+def test_bad_times_are_named(times):
+    with pytest.raises(InputError, match="times to be asked for are .* allowed is a list of 0 to"):
+        states_at(Exposures(), PIGMENTATIONS["low"], times=times, mmd=1.0, med=1.0)
+
+
+@pytest.mark.parametrize("name", list(PIGMENTATIONS))
+def test_a_century_after_a_dose_the_skin_is_as_before(name):
+    exposures = Exposures([0], [30.0])
+    times = [0.0, 24.0 * 366.0 * 100.0]
+    states = states_at(exposures, PIGMENTATIONS[name], times=times, mmd=2.89, med=1.7)
+    assert np.allclose(states[1], states[0], rtol=1e-12)
+
+
+def test_a_thousand_exposures():
+    """A dose every day for nearly three years: a steady tan, as the equations say."""
+    hours = 24 * np.arange(1000)
+    doses = np.zeros(24_001)
+    doses[hours] = 10.0
+    dynamics = PIGMENTATIONS["intermediate"]
+    found = simulate(
+        Exposures(hours, np.full(1000, 10.0)), dynamics, mmd=2.89, med=1.7, hours=24_000
+    )
+    expected = by_the_letter(doses, dynamics, ThicknessDynamics(), 2.89, 1.7)
+    assert np.allclose(found.states, expected, rtol=1e-11)
+    days = found.total[:24_000].reshape(1000, 24)
+    assert np.abs(days[900] - days[901]).max() < 1e-9
+
+
+@pytest.mark.parametrize("dose", [0.0, 1e-300, 2.8])
+def test_a_dose_below_the_threshold_leaves_exactly_the_start(dose):
+    states = states_at(
+        Exposures([0], [dose], [0.0]),
+        PIGMENTATIONS["low"],
+        times=np.arange(1000),
+        mmd=2.89,
+        med=1.7,
+    )
+    steady = PIGMENTATIONS["low"].steady_state()
+    assert np.all(states == np.append(steady / steady.sum(), 1.0))
+
+
+def test_the_response_saturates():
+    """At 1e6 SED and more the Hill factor is all but 1: ten thousand times as much adds nothing."""
+    settings_ = {"mmd": 2.89, "med": 1.7, "hours": 720}
+    most = simulate(Exposures([0], [1e12]), PIGMENTATIONS["low"], **settings_).total
+    much = simulate(Exposures([0], [1e8]), PIGMENTATIONS["low"], **settings_).total
+    assert np.abs(most - much)[:480].max() < 0.02
+    bound = PIGMENTATIONS["low"]
+    full = replace(
+        bound,
+        production=(bound.production[0] + bound.extra_production[0], 0.0, 0.0),
+        transfer=tuple(np.add(bound.transfer, bound.extra_transfer)),
+    )
+    assert most[480] == pytest.approx(full.steady_state().sum(), rel=0.05)
+
+
+def test_many_histories_at_once_equal_each_alone(monkeypatch):
     random = np.random.default_rng(3)
     hours = np.sort(random.choice(400, 6, replace=False))
     doses = random.uniform(0.0, 30.0, (7, 6))
     dynamics = PIGMENTATIONS["high"]
     together = simulate(Exposures(hours, doses), dynamics, mmd=5.0, med=3.0, hours=500)
+    monkeypatch.setattr(simulation, "CELLS_TOGETHER", 1500)  # two or three of them at once
+    parted = simulate(Exposures(hours, doses), dynamics, mmd=5.0, med=3.0, hours=500)
+    assert np.array_equal(parted.states, together.states)
     for index in range(7):
         alone = simulate(Exposures(hours, doses[index]), dynamics, mmd=5.0, med=3.0, hours=500)
         assert np.array_equal(together.melanin[index], alone.melanin)
@@ -226,6 +435,8 @@ def test_bad_dynamics_are_named():
         replace(PIGMENTATIONS["low"], melanin_decay=1.0)
     with pytest.raises(InputError, match="production rate of melanin is -1"):
         replace(PIGMENTATIONS["low"], production=(-1.0, 0.0, 0.0))
+    with pytest.raises(InputError, match="transfer with extra transfer is 1.1; allowed is 0 to 1"):
+        replace(PIGMENTATIONS["low"], transfer=(0.6, 0, 0), extra_transfer=(0.5, 0, 0))
     with pytest.raises(InputError, match="melanin production is 0 in every layer"):
         replace(PIGMENTATIONS["low"], production=(0.0, 0.0, 0.0))
 

@@ -1,0 +1,33 @@
+"""Tanning over time: melanin and thickness of the epidermis after ultraviolet doses.
+
+Chapter 5 of the thesis, in steps of one hour. Doses are in SED (1 SED = 100 J/m^2 at 298 nm),
+times in hours. Layers are ordered as the thesis numbers them: basale, spinosum, granulosum. numpy
+only.
+"""
+
+from hylios.tanning.dynamics import (
+    PIGMENTATIONS,
+    TYPICAL_PIGMENTATION,
+    MelaninDynamics,
+    ThicknessDynamics,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+)
+from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
+from hylios.tanning.simulation import TanningHistory, hill, simulate, states_at
+
+__all__ = [
+    "LARGEST_DOSE",
+    "LONGEST_HOURS",
+    "PIGMENTATIONS",
+    "TYPICAL_PIGMENTATION",
+    "Exposures",
+    "MelaninDynamics",
+    "TanningHistory",
+    "ThicknessDynamics",
+    "hill",
+    "minimal_erythema_dose",
+    "minimal_melanogenesis_dose",
+    "simulate",
+    "states_at",
+]

@@ -1,0 +1,68 @@
+"""Doses of ultraviolet light, and when they fall."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hylios.errors import InputError
+
+LONGEST_HOURS = 24 * 366 * 100
+LARGEST_DOSE = 1e12  # SED; far beyond any, and its sums stay finite
+
+
+@dataclass(frozen=True)
+class Exposures:
+    """Doses of ultraviolet light.
+
+    Attributes
+    ----------
+    hours : (E,) int array
+        Hour of each dose, 0 to a century, in any order.
+    doses : (..., E) float array
+        Dose in SED of each exposure. Leading axes are separate histories, such as places on a
+        body that different shares of the light reach.
+    thickening_doses : (..., E) float array, optional
+        Dose in SED as it counts for the thickness, where the light's spectrum has it differ
+        (`hylios.dose`); the same as `doses` by default.
+
+    Raises
+    ------
+    InputError
+        If an hour or a dose is out of range or not a number, or the shapes do not agree.
+    """
+
+    hours: np.ndarray = field(default_factory=lambda: np.zeros(0, int))
+    doses: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    thickening_doses: np.ndarray | None = None
+
+    def __post_init__(self):
+        hours = np.asarray(self.hours)
+        if hours.ndim != 1 or not np.all((hours >= 0) & (hours <= LONGEST_HOURS)):
+            raise InputError(
+                f"hours of exposure are {hours.tolist()}; allowed are 0 to {LONGEST_HOURS}."
+            )
+        if not np.all(hours == np.floor(hours)):
+            raise InputError(f"hours of exposure are {hours.tolist()}; allowed are whole hours.")
+        doses = _checked_doses(self.doses, hours.size)
+        thickening = self.thickening_doses
+        thickening = doses if thickening is None else _checked_doses(thickening, hours.size)
+        if thickening.shape != doses.shape:
+            raise InputError(
+                f"thickening doses have shape {thickening.shape}; expected {doses.shape}."
+            )
+        object.__setattr__(self, "hours", hours.astype(int))
+        object.__setattr__(self, "doses", doses)
+        object.__setattr__(self, "thickening_doses", thickening)
+
+
+def _checked_doses(given: np.ndarray, exposures: int) -> np.ndarray:
+    doses = np.array(given, dtype=float)
+    if doses.ndim < 1 or doses.shape[-1] != exposures:
+        raise InputError(
+            f"doses have shape {doses.shape}; the last axis must match the {exposures} hours."
+        )
+    if not np.all((doses >= 0) & (doses <= LARGEST_DOSE)):
+        raise InputError(
+            f"a dose is negative, not finite or too large; allowed is 0 to {LARGEST_DOSE:g} SED."
+        )
+    return doses

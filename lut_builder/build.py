@@ -10,7 +10,7 @@ from hylios.colour import rec709_weights
 from hylios.profile import burley_width
 from hylios.specimen import SPECIMENS, Specimen, overfull, tanned
 from hylios.spectra import Figures, estimates_within, figures
-from hylios.table import SkinTable
+from hylios.table import PLANES, SkinTable
 from hylios.tissue import FIGURES, readings
 from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
 from lut_builder.states import Skin, choose_axes
@@ -69,11 +69,12 @@ PRESETS = {
 
 @dataclass(frozen=True)
 class Appearance:
-    """What a spectrum looks like: `hylios.table.PLANES` and their noise.
+    """What a spectrum looks like, and its noise.
 
     Attributes
     ----------
-    values : (len(PLANES), 3) array
+    values : (4, 3) array
+        The first four of `hylios.table.PLANES`.
     colour_covariance : (3, 3) array
         Of the total colour's Monte Carlo error, linear Rec.709.
     """
@@ -164,14 +165,16 @@ def build(
         for state in states
     ]
     values = np.array([entry.values for entry in entries])
-    noise = np.mean([np.diag(entry.colour_covariance) for entry in entries], axis=0)
+    variance = np.array([np.diag(entry.colour_covariance) for entry in entries])
+    planes = dict(zip(PLANES[:4], np.moveaxis(values, 1, 0), strict=True))
+    planes["colour_error"] = np.sqrt(variance)
     cut = sum(overfull(made_for.specimen, state[:3], state[3]) for state in states)
     return SkinTable(
         axes=axes,
-        values=values.reshape(*axes.shape, *values.shape[1:]),
+        planes={name: plane.reshape(*axes.shape, -1) for name, plane in planes.items()},
         provenance={
             **_provenance(made_for, settings, seed, known, readings(chosen)),
-            "colour_standard_error": np.sqrt(noise).tolist(),
+            "colour_standard_error": np.sqrt(variance.mean(axis=0)).tolist(),
             "states_with_melanin_cut": int(cut),
         },
     )

@@ -16,7 +16,7 @@ from hylios.table.layout import (
     from_stored,
     to_stored,
 )
-from hylios.table.planes import PLANES, REQUIRED_PLANES
+from hylios.table.planes import MEANINGS, PLANES, REQUIRED_PLANES
 from hylios.table.table import SkinTable
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "FORMAT_VERSION",
     "HEADER_ATTRIBUTE",
     "INTERPOLATIONS",
+    "MEANINGS",
     "PLANES",
     "REQUIRED_PLANES",
     "STATE_NAMES",

@@ -86,26 +86,32 @@ def _channels(data: bytes, attributes: dict[str, bytes], start: int) -> dict[str
     kinds = dict(_channel_kinds(attributes["channels"]))
     left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
     columns, rows = right - left + 1, bottom - top + 1
-    compression = attributes["compression"][0]
-    if compression not in LINES_PER_BLOCK:
-        raise InputError("its compression is not ZIP, ZIPS or none.")
-    lines = LINES_PER_BLOCK[compression]
     row_bytes = columns * sum(kind.itemsize for kind in kinds.values())
     most = min(LARGEST_PICTURE, LARGEST_DEFLATION * len(data))
     if columns < 1 or rows < 1 or not 0 < row_bytes * rows <= most:
         raise ValueError("a picture of impossible size")
-    blocks = struct.unpack_from(f"<{-(-rows // lines)}Q", data, start)
+    compression = attributes["compression"][0]
+    if compression not in LINES_PER_BLOCK:
+        raise InputError("its compression is not ZIP, ZIPS or none.")
+    lines = LINES_PER_BLOCK[compression]
+    places = struct.unpack_from(f"<{-(-rows // lines)}Q", data, start)
     pixels = np.zeros((rows, row_bytes), dtype=np.uint8)
-    for number, place in enumerate(blocks):
-        first, size = struct.unpack_from("<2i", data, place)
-        if first - top != number * lines or not 0 <= size <= len(data) - place - 8:
-            raise ValueError("a block out of its place")
-        block = pixels[number * lines : (number + 1) * lines]
-        packed = data[place + 8 : place + 8 + size]
+    for first, place in zip(range(0, rows, lines), places, strict=True):
+        block = pixels[first : first + lines]
+        packed = _block(data, place, top + first)
         # A block that deflate would not make smaller is stored as it is.
-        raw = packed if size == block.size or not compression else _inflated(packed, block.size)
+        whole = compression == 0 or len(packed) == block.size
+        raw = packed if whole else _inflated(packed, block.size)
         block[:] = np.frombuffer(raw, dtype=np.uint8).reshape(block.shape)
     return dict(_parted(pixels, kinds, columns))
+
+
+def _block(data: bytes, place: int, line: int) -> bytes:
+    """What a block holds that is to begin with a line."""
+    first, size = struct.unpack_from("<2i", data, place)
+    if first != line or not 0 <= size <= len(data) - place - 8:
+        raise ValueError("a block out of its place")
+    return data[place + 8 : place + 8 + size]
 
 
 def _channel_kinds(listed: bytes) -> Iterator[tuple[str, np.dtype]]:

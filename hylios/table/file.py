@@ -1,5 +1,6 @@
 """Reading a table's file."""
 
+import os
 from pathlib import Path
 
 from hylios.errors import InputError
@@ -38,12 +39,12 @@ def _bytes(path: Path) -> bytes:
             # Some, such as pipes, would never end.
             raise InputError(f"the table {path} cannot be read: it is no file.")
         with path.open("rb") as file:
-            data = file.read(LARGEST_FILE + 1)
+            size = os.fstat(file.fileno()).st_size
+            if size > LARGEST_FILE:
+                raise InputError(f"the table {path} is larger than {LARGEST_FILE // 2**20} MiB.")
+            return file.read(size)
     except OSError as error:
         raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
-    if len(data) > LARGEST_FILE:
-        raise InputError(f"the table {path} is larger than {LARGEST_FILE // 2**20} MiB.")
-    return data
 
 
 def _stored(picture: Picture) -> StoredTable:

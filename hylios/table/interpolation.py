@@ -103,7 +103,7 @@ def _interpolated(
     kinds = nodes.shape[count + 1 :]
     axes = [_axis(own, positions[:, k], kinds[k]) for k, own in enumerate(knots)]
     lows = np.stack([low for low, _ in axes])
-    cells = np.ravel_multi_index(tuple(lows), nodes.shape[:count])
+    cells = np.asarray(np.ravel_multi_index(tuple(lows), nodes.shape[:count]))
     order = np.argsort(cells, kind="stable")
     starts = np.flatnonzero(np.diff(cells[order], prepend=-1))
     # Corners and kinds of number of each axis side by side: the order of the weights.

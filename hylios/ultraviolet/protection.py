@@ -49,8 +49,8 @@ class Protection:
     def of_sunlight(self) -> float:
         """Share of the sun's erythemal irradiance that passes; 1 over it is an SPF.
 
-        The sun is one at 20 degrees from the zenith through 305 Dobson units of ozone, as in
-        COLIPA's method for the SPF (1994), under this project's clear sky. What is grey needs none.
+        The sun stands 20 degrees from the zenith over 305 Dobson units of ozone in a clear sky:
+        midsummer noon at 40 degrees of latitude, this project's choice. What is grey needs none.
         """
         if np.all(self.transmittance == self.transmittance[0]):
             return float(self.transmittance[0])
@@ -76,10 +76,11 @@ BARE = _grey(1.0)
 def sunscreen(spf: float, amount: float = NOMINAL_AMOUNT) -> Protection:
     """A sunscreen of which only the SPF is known: grey, SPF^-(amount / 2).
 
-    That its SPF grows with the power of the amount is what Beer and Lambert have for an even film,
-    and what Faurschou and Wulf (2007) found on people. Liu et al. (Photodermatol. Photoimmunol.
-    Photomed. 28, 2012) found it for SPF 30 and 55, but growth in proportion for SPF 4 and 15. An
-    SPF says nothing of the UVA, of which real sunscreens let more through than this.
+    That an SPF grows exponentially with the amount is what Beer and Lambert have for an even film.
+    Measurements on people disagree: Schalka et al. (2009, SPF 15 and 30) found it; Liu et al.
+    (2012, doi 10.1111/j.1600-0781.2012.00650.x) found it for SPF 30 and 55, but growth in
+    proportion for 4 and 15; Ou-Yang et al. (2012, SPF 30 to 100) found proportion, with which a
+    thin film protects more. An SPF says little of the UVA, where real sunscreens differ.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ def test_the_nominal_amount_gives_the_factor_on_the_label():
 
 
 def test_a_quarter_of_the_amount_gives_the_fourth_root():
-    """Faurschou and Wulf 2007: SPF 16 in the .5 mg/cm^2 of real life is an SPF of 2."""
+    """SPF 16 in the .5 mg/cm^2 of real life is an SPF of 2."""
     assert 1.0 / sunscreen(16.0, 0.5).of_sunlight() == pytest.approx(2.0)
     assert sunscreen(50.0, 0.0).of_sunlight() == 1.0
 

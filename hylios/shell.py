@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -72,9 +72,9 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
     )
 
 
-def note_estimates(known: Figures, wavelengths: np.ndarray) -> None:
+def note_estimates(known: Figures, wavelengths: np.ndarray, names: Sequence[str] = FIGURES) -> None:
     """Say on standard error which spectral figures are estimates at some wavelength in nm."""
-    for line in estimates_within(known, FIGURES, wavelengths):
+    for line in estimates_within(known, names, wavelengths):
         print(f"note: {line}", file=sys.stderr)
 
 

@@ -17,6 +17,7 @@ ALLOWED = {
     "hylios/pictures.py": {"numpy", "matplotlib"},
     "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
     "hylios/transport": {"numpy", "numba"},
+    "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
@@ -66,6 +67,13 @@ def test_numba_and_colour_stay_in_their_rooms(path):
     if inside.startswith("hylios/") and not inside.startswith(LIGHT_ROOMS):
         for name, _ in imported(path):
             assert not name.startswith(("hylios.transport", "hylios.colour")), f"{inside}: {name}"
+
+
+def test_only_one_module_of_ultraviolet_asks_the_light_model():
+    """The others can go where the light model does not."""
+    for path in (ROOT / "hylios/ultraviolet").glob("*.py"):
+        asks = any(name.startswith("hylios.adding") for name, _ in imported(path))
+        assert asks == (path.name == "absorptance.py"), path.name
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 import hylios
+from hylios.adding.ultraviolet import tabulated
 from hylios.colour import rec709_weights
 from hylios.profile import burley_width
 from hylios.specimen import SPECIMENS, Specimen, overfull, tanned
@@ -195,6 +196,7 @@ def _provenance(
         "med_sed": made_for.med,
         "solver": "random walk",
         "readings": dict(decided),
+        "absorptance": _absorptance(made_for.specimen, known, decided),
         "own_figures": {
             name: known[name].source for name in FIGURES if known[name] is not own[name]
         },
@@ -206,6 +208,15 @@ def _provenance(
         "colour": "linear Rec.709, D65, CIE 1931 2 degree",
         "profile_width_unit": "mm",
         "estimated_figures": estimates_within(known, FIGURES, settings.wavelengths),
+    }
+
+
+def _absorptance(specimen: Specimen, known: Figures, decided: Mapping[str, str]) -> dict:
+    """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
+    found = tabulated(specimen, known=known, chosen=decided)
+    return {
+        "wavelengths_nm": found.wavelengths.tolist(),
+        "values": np.round(found.values, 5).tolist(),
     }
 
 

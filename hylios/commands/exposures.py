@@ -149,7 +149,7 @@ def chosen_doses(asked: argparse.Namespace, skin: TanningSkin) -> Doses:
     elif asked.utc_offset is not None and asked.longitude is None:
         raise InputError("--utc-offset is given without --longitude.")
     if suns or asked.spectrum:
-        from hylios.ultraviolet.absorptance import tabulated  # the light model: only for a spectrum
+        from hylios.adding.ultraviolet import tabulated  # the light model: only for a spectrum
 
         absorptance = tabulated(skin.specimen, known=skin.known, chosen=skin.chosen)
         parts += [

@@ -27,7 +27,7 @@ MELANOGENESIS, ERYTHEMA = "melanogenesis_action", "erythema_action"
 
 @dataclass(frozen=True, eq=False)
 class Absorptance:
-    """Spectral absorptance of skin, the A of 5.1 to 5.3 (`hylios.ultraviolet.absorptance`).
+    """Spectral absorptance of skin, the A of 5.1 to 5.3 (`hylios.adding.ultraviolet`).
 
     Attributes
     ----------

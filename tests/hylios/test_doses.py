@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hylios.adding.spectrum import spectrum
+from hylios.adding.ultraviolet import tabulated
 from hylios.cli import main
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
 from hylios.spectra import figures
-from hylios.ultraviolet.absorptance import tabulated
 from hylios.ultraviolet.dose import (
     ERYTHEMA,
     MELANOGENESIS,

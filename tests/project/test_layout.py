@@ -27,7 +27,7 @@ ALLOWED = {
 LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors", "hylios/fit.py")
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
-NUMPY_ONLY = ("tanning", "table", "errors")
+NUMPY_ONLY = ("errors", "spectra", "table", "tanning", "ultraviolet")
 """What of `hylios` the add-on may use: what its wheel carries."""
 
 
@@ -69,11 +69,15 @@ def test_numba_and_colour_stay_in_their_rooms(path):
             assert not name.startswith(("hylios.transport", "hylios.colour")), f"{inside}: {name}"
 
 
-def test_only_one_module_of_ultraviolet_asks_the_light_model():
-    """The others can go where the light model does not."""
-    for path in (ROOT / "hylios/ultraviolet").glob("*.py"):
-        asks = any(name.startswith("hylios.adding") for name, _ in imported(path))
-        assert asks == (path.name == "absorptance.py"), path.name
+@pytest.mark.parametrize(
+    "path",
+    [each for each in SOURCES if each.relative_to(ROOT).parts[1].removesuffix(".py") in NUMPY_ONLY],
+    ids=lambda path: path.name,
+)
+def test_what_the_add_on_carries_needs_nothing_else_of_hylios(path):
+    for name, _ in imported(path):
+        if name.startswith("hylios."):
+            assert name.split(".")[1] in NUMPY_ONLY, f"{path.name} imports {name}"
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.table import PLANES, SkinTable
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.table import PLANES, SkinTable, melanin_dynamics
+from hylios.tanning import Exposures, simulate
 
 LAST_DAY_LIMIT = 366.0
 # The response jumps where the dose passes the MMD and then climbs in steps; with this many knots
@@ -67,7 +67,7 @@ def tan(
     Raises
     ------
     InputError
-        If a day or dose is out of range, or if the table names no known pigmentation.
+        If a day or dose is out of range, or if the table does not say how its skin makes melanin.
     """
     check_days(first_day, last_day)
     hours = int(np.ceil(24.0 * last_day))
@@ -77,7 +77,7 @@ def tan(
             hours=np.array([hour_of(exposure.day) for exposure in exposures], dtype=int),
             doses=share[:, None] * np.array([exposure.dose for exposure in exposures], dtype=float),
         ),
-        PIGMENTATIONS[_pigmentation(table)],
+        melanin_dynamics(table.provenance),
         mmd=mmd,
         med=med,
         hours=hours,
@@ -114,14 +114,6 @@ def hour_of(day: float) -> int:
     """
     require_range("day of an exposure", day, 0.0, LAST_DAY_LIMIT)
     return int(np.floor(24.0 * day + 0.5))
-
-
-def _pigmentation(table: SkinTable) -> str:
-    name = table.provenance.get("pigmentation")
-    if name not in PIGMENTATIONS:
-        allowed = ", ".join(PIGMENTATIONS)
-        raise InputError(f"the table's pigmentation is {name!r}; allowed are {allowed}.")
-    return name
 
 
 def _at_hours(states: np.ndarray, hours: np.ndarray) -> np.ndarray:

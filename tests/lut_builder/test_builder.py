@@ -12,6 +12,7 @@ import OpenImageIO as oiio  # noqa: N813
 import pytest
 
 from hylios.errors import InputError
+from hylios.skin import skin
 from hylios.specimen import SPECIMENS
 from hylios.table import HEADER_ATTRIBUTE, PLANES, header_text, to_pixels
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
@@ -19,7 +20,7 @@ from lut_builder.build import PRESETS, Settings, build, tanned_appearance, visib
 from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import main
 from lut_builder.exr import read_table, write_table
-from lut_builder.states import choose_axes, reachable_states, skin, untanned_state
+from lut_builder.states import choose_axes, reachable_states, untanned_state
 
 TINY = Settings(knots=(3, 2), visible=visible_wavelengths(60.0), rays=1500)
 
@@ -67,7 +68,7 @@ def test_reachable_states_are_those_that_the_issue_of_a_tan_can_be():
 def test_an_entry_is_the_simulation_of_its_state(tiny):
     made_for = skin_of(tiny)
     state = tiny.axes.knot_states()[2, 1]
-    entry = tanned_appearance(made_for.specimen, state, TINY, seed=1)
+    entry = tanned_appearance(made_for, state, TINY, seed=1)
     assert np.array_equal(tiny.values[2, 1], entry.values)
 
 

@@ -28,7 +28,7 @@ UNTANNED = {
     "own": "the specimen's own melanin of each layer, scaled by m_i(t)/m_i(0)",
 }
 """What the skin is without sun: 5.16 as printed, which keeps the specimen's total of melanin but
-lies it out by the tanning set, or the specimen itself. The same where the specimen's melanin lies
+lays it out by the tanning set, or the specimen itself. The same where the specimen's melanin lies
 as the set's, as in `hylios.phototypes`."""
 
 _PER_LAYER = ("production", "transfer", "extra_production", "extra_transfer")

@@ -1,6 +1,7 @@
 """What an artist sets on an object."""
 
 import zlib
+from collections.abc import Sequence
 
 import bpy
 from bpy.props import (
@@ -13,10 +14,22 @@ from bpy.props import (
 )
 
 from .doses import LAST_DAY_LIMIT
-from .tables import SHIPPED
+from .tables import SHIPPED, TYPES, ShippedTable
 
-SKIN_LABELS = {"S1": "Light, pale", "S2": "Light, ruddy", "S3": "Light", "S4": "Dark"}
-USUAL_SKIN = "S3"
+SKIN_LABELS = {
+    "I": "Type I, very light",
+    "II": "Type II, light",
+    "III": "Type III, intermediate",
+    "IV": "Type IV, tan",
+    "V": "Type V, brown",
+    "VI": "Type VI, dark",
+    "S1": "Light, pale (S1)",
+    "S2": "Light, ruddy (S2)",
+    "S3": "Light (S3)",
+    "S4": "Dark (S4)",
+}
+USUAL_SKINS = ("III", "S3")
+"""Of which the first that is shipped is chosen at first."""
 
 
 def _skin_items() -> tuple:
@@ -27,13 +40,23 @@ def _skin_items() -> tuple:
     shipped = tuple(
         (
             table.name,
-            f"{SKIN_LABELS.get(table.name, 'Skin')} ({table.name})",
-            f"Skin of specimen {table.name}, {table.pigmentation} pigmentation",
+            SKIN_LABELS.get(table.name, f"Skin ({table.name})"),
+            _described(table),
             zlib.crc32(table.name.encode()) & 0x7FFFFFFF,
         )
         for table in SHIPPED
     )
     return (*shipped, ("FILE", "Table File", "Skin of a table in a file of your own", 0))
+
+
+def _described(table: ShippedTable) -> str:
+    kind = "Fitzpatrick skin type" if table.name in TYPES else "Skin of specimen"
+    return f"{kind} {table.name}, {table.pigmentation} pigmentation"
+
+
+def usual_skin(names: Sequence[str]) -> str:
+    """The skin that an object has at first, of those that can be chosen."""
+    return next((name for name in USUAL_SKINS if name in names), names[0])
 
 
 SKIN_ITEMS = _skin_items()
@@ -165,7 +188,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         name="Skin",
         description="Which skin it is that tans",
         items=SKIN_ITEMS,
-        default=USUAL_SKIN if USUAL_SKIN in NAMES else NAMES[0],
+        default=usual_skin(NAMES),
     )
     table_path: StringProperty(
         name="Table",

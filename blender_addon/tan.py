@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.table import PLANES, SkinTable
-from hylios.tanning import PIGMENTATIONS, Exposures, states_at
+from hylios.table import PLANES, SkinTable, melanin_dynamics
+from hylios.tanning import Exposures, states_at
 from hylios.ultraviolet.exposures import Doses
 
 from .doses import LAST_DAY_LIMIT
@@ -63,14 +63,14 @@ def tan(
     Raises
     ------
     InputError
-        If a day is out of range, or if the table names no known pigmentation.
+        If a day is out of range, or if the table does not say how its skin makes melanin.
     """
     check_days(first_day, last_day)
     rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
     share = np.linspace(0.0, 1.0, COLUMNS)[:, None]
     states = states_at(
         Exposures(doses.hours, share * doses.melanogenesis, share * doses.thickening),
-        PIGMENTATIONS[_pigmentation(table)],
+        melanin_dynamics(table.provenance),
         times=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
         med=med,
@@ -93,11 +93,3 @@ def check_days(first_day: float, last_day: float) -> None:
             f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
             f"to {LAST_DAY_LIMIT:g}."
         )
-
-
-def _pigmentation(table: SkinTable) -> str:
-    name = table.provenance.get("pigmentation")
-    if name not in PIGMENTATIONS:
-        allowed = ", ".join(PIGMENTATIONS)
-        raise InputError(f"the table's pigmentation is {name!r}; allowed are {allowed}.")
-    return name

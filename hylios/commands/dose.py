@@ -5,10 +5,10 @@ import argparse
 import numpy as np
 
 from hylios.commands.exposures import (
+    add_chosen_arguments,
     add_exposure_arguments,
-    add_tanning_skin_arguments,
+    chosen,
     chosen_doses,
-    chosen_tanning_skin,
 )
 from hylios.shell import print_table
 
@@ -25,14 +25,14 @@ def add_to(commands) -> None:
         "dose", help="doses of sun, lamps and UV index", description=DESCRIPTION
     )
     parser.set_defaults(command=run)
-    add_tanning_skin_arguments(parser)
+    add_chosen_arguments(parser)
     add_exposure_arguments(parser)
 
 
 def run(asked: argparse.Namespace) -> None:
     """Compute and print."""
-    skin = chosen_tanning_skin(asked)
-    doses = chosen_doses(asked, skin)
+    of = chosen(asked)
+    doses = chosen_doses(asked, of)
     checked = doses.exposures()
     order = np.argsort(checked.hours, kind="stable")
     columns = {
@@ -40,7 +40,7 @@ def run(asked: argparse.Namespace) -> None:
         "erythemal_sed": doses.erythemal,
         "melanogenesis_sed": doses.melanogenesis,
         "thickening_sed": doses.thickening,
-        "mmd_multiple": doses.melanogenesis / skin.mmd,
-        "med_multiple": doses.thickening / skin.med,
+        "mmd_multiple": doses.melanogenesis / of.skin.mmd,
+        "med_multiple": doses.thickening / of.skin.med,
     }
     print_table({name: values[order] for name, values in columns.items()}, digits=10)

@@ -3,21 +3,26 @@
 import argparse
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
 
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.shell import add_skin_arguments, chosen_skin, note_estimates, number
-from hylios.specimen import Specimen
+from hylios.shell import (
+    add_skin_arguments,
+    add_tanning_arguments,
+    chosen_skin,
+    chosen_tanning_skin,
+    note_estimates,
+    number,
+)
+from hylios.skin import Skin
 from hylios.spectra import Figures
 from hylios.spectrum_file import read_columns
 from hylios.tanning import (
-    PIGMENTATIONS,
     TYPICAL_PIGMENTATION,
-    MelaninDynamics,
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
 )
@@ -52,39 +57,38 @@ shines from a clear sky on level skin.
 
 
 @dataclass(frozen=True)
-class TanningSkin:
-    """What the commands need of a skin that tans; minimal doses are in SED."""
+class Chosen:
+    """What the commands need of a skin that tans."""
 
-    melanin: MelaninDynamics
-    mmd: float
-    med: float
-    specimen: Specimen
+    skin: Skin
     known: Figures
-    chosen: Mapping[str, str]
+    readings: Mapping[str, str]
 
 
-def add_tanning_skin_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that `chosen_tanning_skin` reads."""
-    parser.add_argument("--pigmentation", choices=list(PIGMENTATIONS), default="low")
-    parser.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED (default: 3.2)")
-    parser.add_argument("--med", type=float, help="minimal erythema dose, SED (default: 3.1)")
+def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen` reads."""
+    add_tanning_arguments(parser)
     add_skin_arguments(parser)
 
 
-def chosen_tanning_skin(asked: argparse.Namespace) -> TanningSkin:
-    """The skin that the arguments ask for.
+def chosen(asked: argparse.Namespace) -> Chosen:
+    """The skin that the arguments ask for, and the spectral figures and readings.
+
+    Without a skin type or specimen, minimal doses are those typical of the tanning set.
 
     Raises
     ------
     InputError
         If one of them cannot be used.
     """
-    typical = TYPICAL_PIGMENTATION[asked.pigmentation]
-    mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
-    med = minimal_erythema_dose(typical) if asked.med is None else asked.med
-    require_range("MMD", mmd, 1e-6, 1e6, "SED")
-    require_range("MED", med, 1e-6, 1e6, "SED")
-    return TanningSkin(PIGMENTATIONS[asked.pigmentation], mmd, med, *chosen_skin(asked))
+    _, known, decided = chosen_skin(asked)
+    skin = chosen_tanning_skin(asked)
+    if asked.skin is None and asked.specimen is None:
+        typical = TYPICAL_PIGMENTATION[skin.pigmentation]
+        mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
+        med = minimal_erythema_dose(typical) if asked.med is None else asked.med
+        skin = replace(skin, mmd=mmd, med=med)
+    return Chosen(skin, known, decided)
 
 
 def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
@@ -128,7 +132,7 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
     over.add_argument("--upf", type=float, help="of cloth; grey")
 
 
-def chosen_doses(asked: argparse.Namespace, skin: TanningSkin) -> Doses:
+def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
     """The doses that the arguments ask for; says on standard error which figures are estimates.
 
     Raises
@@ -137,7 +141,7 @@ def chosen_doses(asked: argparse.Namespace, skin: TanningSkin) -> Doses:
         If one of them cannot be used.
     """
     over = _protection(asked)
-    parts = [of_sed(*_dose(text, skin.mmd), over) for text in asked.dose]
+    parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in asked.dose]
     parts += [of_uv_index(*_uv_index(text), over) for text in asked.uv_index]
     suns = [_sun(text) for text in asked.sun]
     if not suns:
@@ -151,9 +155,9 @@ def chosen_doses(asked: argparse.Namespace, skin: TanningSkin) -> Doses:
     if suns or asked.spectrum:
         from hylios.adding.ultraviolet import tabulated  # the light model: only for a spectrum
 
-        absorptance = tabulated(skin.specimen, known=skin.known, chosen=skin.chosen)
+        absorptance = tabulated(of.skin.specimen, known=of.known, chosen=of.readings)
         parts += [
-            of_spectrum(*_spectrum(text), absorptance, over, skin.known) for text in asked.spectrum
+            of_spectrum(*_spectrum(text), absorptance, over, of.known) for text in asked.spectrum
         ]
         sky = ClearSky(asked.ozone, asked.altitude, asked.aerosol, asked.albedo)
         start = _date(asked.start) if asked.start else min((each[0] for each in suns), default=None)
@@ -167,12 +171,12 @@ def chosen_doses(asked: argparse.Namespace, skin: TanningSkin) -> Doses:
                 utc_offset=asked.utc_offset or 0.0,
                 sky=sky,
                 protection=over,
-                known=skin.known,
+                known=of.known,
             )
             for each in suns
         ]
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
-        note_estimates(skin.known, light, (*FIGURES, MELANOGENESIS))
+        note_estimates(of.known, light, (*FIGURES, MELANOGENESIS))
     return joined(parts)
 
 

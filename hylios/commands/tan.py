@@ -3,10 +3,10 @@
 import argparse
 
 from hylios.commands.exposures import (
+    add_chosen_arguments,
     add_exposure_arguments,
-    add_tanning_skin_arguments,
+    chosen,
     chosen_doses,
-    chosen_tanning_skin,
 )
 from hylios.shell import print_table
 from hylios.tanning import simulate
@@ -16,20 +16,27 @@ def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
     parser = commands.add_parser("tan", help="melanin and thickness over time")
     parser.set_defaults(command=run)
-    add_tanning_skin_arguments(parser)
+    add_chosen_arguments(parser)
     add_exposure_arguments(parser)
     parser.add_argument("--hours", type=int, default=720, help="last hour (720)")
+    parser.add_argument(
+        "--step",
+        type=float,
+        default=1.0,
+        help="hours from line to line: 1 to 24, or 1 divided by a whole number (1)",
+    )
 
 
 def run(asked: argparse.Namespace) -> None:
     """Simulate and print."""
-    skin = chosen_tanning_skin(asked)
+    of = chosen(asked)
     history = simulate(
-        chosen_doses(asked, skin).exposures(),
-        skin.melanin,
-        mmd=skin.mmd,
-        med=skin.med,
+        chosen_doses(asked, of).exposures(),
+        of.skin.dynamics,
+        mmd=of.skin.mmd,
+        med=of.skin.med,
         hours=asked.hours,
+        step=int(asked.step) if asked.step >= 1.0 and asked.step.is_integer() else asked.step,
     )
     names = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
     columns = (history.hours, *history.melanin.T, history.total, history.thickness)

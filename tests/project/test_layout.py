@@ -24,7 +24,13 @@ ALLOWED = {
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
 
-LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors", "hylios/fit.py")
+LIGHT_ROOMS = (
+    "hylios/transport",
+    "hylios/commands",
+    "hylios/predecessors",
+    "hylios/fit.py",
+    "hylios/phototypes/fitting.py",
+)
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
 NUMPY_ONLY = ("errors", "spectra", "table", "tanning", "ultraviolet")

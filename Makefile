@@ -39,7 +39,7 @@ package: environment
 	@$(BIN)/python -m blender_addon.package
 
 # The tables that the add-on carries; each takes minutes.
-TABLES := S1 S2 S3 S4
+TABLES := I II III IV V VI S1 S2 S3 S4
 .PHONY: tables
 tables: environment
 	@for name in $(TABLES); do \

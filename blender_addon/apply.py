@@ -5,8 +5,8 @@ import bpy
 from hylios.errors import InputError
 from hylios.table import read_table
 
-from . import images, nodes, tables, timeline
-from .tan import Exposure, check_days, tan
+from . import doses, images, nodes, tables, timeline
+from .tan import check_days, tan
 
 # Names longer than this are cut in Blender 4.5; cutting them here lets them be found again.
 NAME_BYTES = 63
@@ -28,12 +28,12 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     check_days(settings.first_day, settings.last_day)
     timeline.check_frames(settings.first_frame, settings.last_frame)
     table = read_table(tables.table_path(settings.skin, settings.table_path))
-    doses = _minimal_doses(settings, table.provenance)
+    minimal = minimal_doses(settings, table.provenance)
     result = tan(
         table,
-        [Exposure(exposure.day, exposure.dose) for exposure in settings.exposures],
-        mmd=doses.mmd,
-        med=doses.med,
+        doses.received(settings.exposures, minimal.mmd, table.provenance),
+        mmd=minimal.mmd,
+        med=minimal.med,
         first_day=settings.first_day,
         last_day=settings.last_day,
     )
@@ -58,7 +58,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     return _assign(obj, material) + _late_exposures(settings)
 
 
-def _minimal_doses(settings, provenance: dict) -> tables.MinimalDoses:
+def minimal_doses(settings, provenance: dict) -> tables.MinimalDoses:
     """The minimal doses to use: the artist's own where that is set, else the table's.
 
     Raises

@@ -5,10 +5,21 @@ import bpy
 from hylios.errors import InputError
 
 from . import tables
+from .apply import minimal_doses
+from .doses import of_exposure
 from .nodes import DAY_PROPERTY
 
 # Erythemal dose rate of the sun at UV index 8: 8 x 25 mW/m^2 for an hour is 720 J/m^2.
 SED_PER_HOUR_OF_SUMMER_SUN = 7.2
+
+
+FIELDS = {
+    "SED": (("dose",),),
+    "MMD": (("multiple",),),
+    "UV_INDEX": (("uv_index", "duration"),),
+    "SUN": (("latitude",), ("month", "day_of_month"), ("from_hour", "to_hour")),
+}
+"""What is shown of an exposure by its unit, row by row."""
 
 
 class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
@@ -16,7 +27,10 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
         row = layout.row(align=True)
         row.use_property_split = False
         row.prop(item, "day", text="Day", emboss=False)
-        row.prop(item, "dose", text="SED", emboss=False)
+        if item.unit == "SED":
+            row.prop(item, "dose", text="SED", emboss=False)
+        else:
+            row.label(text=summary(item))
 
 
 class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
@@ -97,8 +111,49 @@ def _draw_exposures(layout, settings) -> None:
         layout.label(text="Add a time in the sun with +", icon="INFO")
         return
     chosen = settings.exposures[min(settings.exposure_index, len(settings.exposures) - 1)]
-    hours = chosen.dose / SED_PER_HOUR_OF_SUMMER_SUN
-    layout.label(text=f"{chosen.dose:g} SED: {hours:.1f} h of strong summer sun", icon="LIGHT_SUN")
+    layout.prop(chosen, "unit")
+    column = layout.column(align=True)
+    for names in FIELDS[chosen.unit]:
+        row = column.row(align=True)
+        for name in names:
+            row.prop(chosen, name)
+    layout.prop(chosen, "sunscreen")
+    if chosen.sunscreen:
+        row = layout.row(align=True)
+        row.prop(chosen, "spf")
+        row.prop(chosen, "sunscreen_amount")
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    lines, icon = reaching(settings, chosen)
+    for line in lines:
+        column.label(text=line, icon=icon if line == lines[0] else "BLANK1")
+
+
+def summary(exposure) -> str:
+    """An exposure in a few characters."""
+    return {
+        "SED": f"{exposure.dose:g} SED",
+        "MMD": f"{exposure.multiple:g} MMD",
+        "UV_INDEX": f"UV {exposure.uv_index:g}, {exposure.duration:g} h",
+        "SUN": f"Sun {exposure.from_hour:g}-{exposure.to_hour:g} h",
+    }[exposure.unit]
+
+
+def reaching(settings, exposure) -> tuple[tuple[str, ...], str]:
+    """Short lines on the dose that reaches the skin in an exposure, and their icon."""
+    try:
+        provenance = tables.provenance(tables.table_path(settings.skin, settings.table_path))
+        mmd = minimal_doses(settings, provenance).mmd
+        doses = of_exposure(exposure, mmd, provenance)
+    except InputError as error:
+        # Apply says it in full; here it would be cut off.
+        return ("No dose: " + str(error).split(";")[0][:40],), "ERROR"
+    meter, tanning = doses.erythemal.sum(), doses.melanogenesis.sum()
+    hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
+    lines = [f"{meter:.3g} SED: {hours:.1f} h of strong summer sun"]
+    if exposure.unit == "SUN":
+        lines.append(f"tans like {tanning:.3g} SED (provisional)")
+    return tuple(lines), "LIGHT_SUN"
 
 
 def _draw_mask(layout, obj) -> None:

@@ -10,6 +10,8 @@ from hylios.errors import InputError
 from hylios.table import read_table
 
 FOLDER = Path(__file__).parent / "tables"
+TYPES = ("I", "II", "III", "IV", "V", "VI")
+"""Skin types, in the order in which they are offered, before all other skins."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class ShippedTable:
     Attributes
     ----------
     name : str
-        The specimen, such as S3.
+        The skin type or specimen, such as III or S3.
     pigmentation : str
         Its constitutive pigmentation: low, intermediate or high.
     path : Path
@@ -39,11 +41,16 @@ class ShippedTable:
 
 
 def shipped_tables() -> tuple[ShippedTable, ...]:
-    """The tables in the add-on's folder by name; none where it was not built with any."""
+    """The tables in the add-on's folder, types first; none where it was not built with any."""
     return tuple(
         ShippedTable(path.stem, provenance(path).get("pigmentation", ""), path)
-        for path in sorted(FOLDER.glob("*.exr"))
+        for path in sorted(FOLDER.glob("*.exr"), key=lambda path: in_order(path.stem))
     )
+
+
+def in_order(name: str) -> tuple[int, str]:
+    """Key that sorts skins by name as they are offered: types I to VI, then the others."""
+    return (TYPES.index(name) if name in TYPES else len(TYPES), name)
 
 
 def table_path(skin: str, chosen: str) -> Path:

@@ -5,23 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.table import SkinTable
-from hylios.tanning import PIGMENTATIONS, Exposures, states_at
+from hylios.table import SkinTable, melanin_dynamics
+from hylios.tanning import Exposures, states_at
+from hylios.ultraviolet.exposures import Doses
 
-LAST_DAY_LIMIT = 366.0
+from .doses import LAST_DAY_LIMIT
+
 # The response jumps where the dose passes the MMD and then climbs in steps; with this many knots
 # a jump is spread over 0.2 % of the share, and 99 % of all places are within 0.6 % of the melanin.
 COLUMNS = 512
 HOURS_PER_ROW = 6.0
 ROWS_LIMIT = 1024
-
-
-@dataclass(frozen=True)
-class Exposure:
-    """A dose in SED at a time in days, 0 or later."""
-
-    day: float
-    dose: float
 
 
 @dataclass(frozen=True)
@@ -47,17 +41,19 @@ class Tan:
 
 def tan(
     table: SkinTable,
-    exposures: list[Exposure],
+    doses: Doses,
     *,
     mmd: float,
     med: float,
     first_day: float,
     last_day: float,
 ) -> Tan:
-    """Simulate a schedule of exposures of a skin from day 0 and look its appearance up.
+    """Simulate a skin's doses from day 0 and look its appearance up.
 
     Parameters
     ----------
+    doses : Doses
+        On bare skin.
     mmd, med : float
         Minimal melanogenesis and erythema dose in SED.
     first_day, last_day : float
@@ -67,17 +63,14 @@ def tan(
     Raises
     ------
     InputError
-        If a day or dose is out of range, or if the table names no known pigmentation.
+        If a day is out of range, or if the table does not say how its skin makes melanin.
     """
     check_days(first_day, last_day)
     rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
-    share = np.linspace(0.0, 1.0, COLUMNS)
+    share = np.linspace(0.0, 1.0, COLUMNS)[:, None]
     states = states_at(
-        Exposures(
-            hours=np.array([hour_of(exposure.day) for exposure in exposures], dtype=int),
-            doses=share[:, None] * np.array([exposure.dose for exposure in exposures], dtype=float),
-        ),
-        PIGMENTATIONS[_pigmentation(table)],
+        Exposures(doses.hours, share * doses.melanogenesis, share * doses.thickening),
+        melanin_dynamics(table.provenance),
         times=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
         med=med,
@@ -101,24 +94,3 @@ def check_days(first_day: float, last_day: float) -> None:
             f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
             f"to {LAST_DAY_LIMIT:g}."
         )
-
-
-def hour_of(day: float) -> int:
-    """The hour of the tanning model in which an exposure at a time in days takes place.
-
-    Raises
-    ------
-    InputError
-        If the day is out of range.
-    """
-    require_range("day of an exposure", day, 0.0, LAST_DAY_LIMIT)
-    return int(np.floor(24.0 * day + 0.5))
-
-
-def _pigmentation(table: SkinTable) -> str:
-    name = table.provenance.get("pigmentation")
-    if name not in PIGMENTATIONS:
-        allowed = ", ".join(PIGMENTATIONS)
-        raise InputError(f"the table's pigmentation is {name!r}; allowed are {allowed}.")
-    return name
-

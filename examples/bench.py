@@ -13,11 +13,11 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
+from hylios.skin import skin
 from hylios.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
 from lut_builder.build import PRESETS, build
-from lut_builder.states import skin
 
 REPEATS = 5
 RAYS = {False: 20_000, True: 1000}

@@ -3,10 +3,10 @@
 import argparse
 import sys
 
-from hylios.commands import brdf, fit, plot, profile, reflectance, specimen, swatch, tan
+from hylios.commands import brdf, dose, fit, plot, profile, reflectance, specimen, swatch, tan
 from hylios.shell import run
 
-COMMANDS = (reflectance, brdf, profile, swatch, plot, specimen, fit, tan)
+COMMANDS = (reflectance, brdf, profile, swatch, plot, specimen, fit, dose, tan)
 """Modules with a function `add_to`, which adds their command to a parser's subcommands."""
 
 

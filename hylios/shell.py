@@ -3,18 +3,22 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from hylios.errors import InputError, require_whole
-from hylios.specimen import Specimen, parameters, specimen, with_values
+from hylios.phototypes import PHOTOTYPES, named_specimen, phototype
+from hylios.skin import Skin, skin
+from hylios.specimen import Specimen, parameters, with_values
 from hylios.specimen_file import read_specimen
 from hylios.spectra import Figures, estimates_within, figures, replaced
+from hylios.tanning import PIGMENTATIONS
 from hylios.tissue import FIGURES, readings
 
 MOST_WAVELENGTHS = 10_000
+USUAL_SPECIMEN = "S3"
 
 
 def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
@@ -56,7 +60,10 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
     `where` and `how` name the specimen's own argument and say more of it.
     """
     parser.add_argument(
-        *where, default="S3", help="S1 to S4 of table 6.1, or a file NAME.toml (default S3)", **how
+        *where,
+        help="S1 to S4 of table 6.1, skin type I to VI, or a file NAME.toml "
+        f"(default {USUAL_SPECIMEN})",
+        **how,
     )
     parser.add_argument(
         "--set",
@@ -72,9 +79,9 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
     )
 
 
-def note_estimates(known: Figures, wavelengths: np.ndarray) -> None:
+def note_estimates(known: Figures, wavelengths: np.ndarray, names: Sequence[str] = FIGURES) -> None:
     """Say on standard error which spectral figures are estimates at some wavelength in nm."""
-    for line in estimates_within(known, FIGURES, wavelengths):
+    for line in estimates_within(known, names, wavelengths):
         print(f"note: {line}", file=sys.stderr)
 
 
@@ -86,6 +93,29 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
         ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
     ):
         parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+
+
+def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen_tanning_skin` reads besides the specimen's."""
+    parser.add_argument(
+        "--skin",
+        choices=PHOTOTYPES,
+        help="skin type, in place of a specimen: that type's specimen, tanning as the type does",
+    )
+    parser.add_argument(
+        "--pigmentation",
+        choices=list(PIGMENTATIONS),
+        help="tanning set of table 6.4 (default: the specimen's or the type's)",
+    )
+    parser.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED (default: 3.2)")
+    parser.add_argument("--med", type=float, help="minimal erythema dose, SED (default: 3.1)")
+    parser.add_argument(
+        "--tanning",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a rate of the tanning set, such as basale_extra_production=0.0858; repeatable",
+    )
 
 
 def add_work_arguments(parser: argparse.ArgumentParser) -> None:
@@ -102,7 +132,7 @@ def require_work(asked: argparse.Namespace) -> None:
 
 
 def chosen_specimen(asked: argparse.Namespace) -> Specimen:
-    """The specimen that the arguments ask for: one of table 6.1 or a file's, with what is set.
+    """The specimen that the arguments ask for: one by name or a file's, with what is set.
 
     Raises
     ------
@@ -114,12 +144,46 @@ def chosen_specimen(asked: argparse.Namespace) -> Specimen:
         name: number(text, name) if name in numeric else text
         for name, text in named_values(asked.set, "a setting").items()
     }
-    unphysical = asked.allow_unphysical
-    if asked.specimen.endswith(".toml"):
-        start = read_specimen(Path(asked.specimen), allow_unphysical=unphysical)
+    name, unphysical = _specimen_name(asked), asked.allow_unphysical
+    if name.endswith(".toml"):
+        start = read_specimen(Path(name), allow_unphysical=unphysical)
     else:
-        start = specimen(asked.specimen)
+        start = named_specimen(name)
     return with_values(start, values, allow_unphysical=unphysical)
+
+
+def _specimen_name(asked: argparse.Namespace) -> str:
+    """Name or file of the specimen asked for, which `--skin` can name as well."""
+    type_of_skin = getattr(asked, "skin", None)
+    if type_of_skin is not None and asked.specimen is not None:
+        raise InputError(
+            f"both the skin type {type_of_skin} and the specimen {asked.specimen} are given; "
+            "allowed is one of them."
+        )
+    return type_of_skin or asked.specimen or USUAL_SPECIMEN
+
+
+def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state") -> Skin:
+    """The skin that the arguments ask for: `chosen_specimen`, and how it tans.
+
+    A skin type, be it named by `--skin` or as a specimen, tans as the type does; `--pigmentation`
+    puts a whole set in the place of that, `--tanning` single rates.
+
+    Raises
+    ------
+    InputError
+        If there is none, or a part of it cannot be used.
+    """
+    specimen, name = chosen_specimen(asked), _specimen_name(asked)
+    rates = {
+        rate: number(text, rate)
+        for rate, text in named_values(asked.tanning, "a rate of tanning").items()
+    }
+    pigmentation = asked.pigmentation
+    if name in PHOTOTYPES and pigmentation is None:
+        usual = phototype(name)
+        pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
+    return skin(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
 
 
 def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:

@@ -209,16 +209,25 @@ def with_values(
     return specimen_of({**asdict(specimen), **values}, allow_unphysical=allow_unphysical)
 
 
-def tanned(specimen: Specimen, melanin: np.ndarray, thickness: float) -> Specimen:
+def tanned(
+    specimen: Specimen,
+    melanin: np.ndarray,
+    thickness: float,
+    untanned: np.ndarray | None = None,
+) -> Specimen:
     """The specimen in a tanning state (equation 5.16, sections 5.2.2 and 5.3).
 
     Every layer's melanin becomes m_i(t) of 5.16, in the specimen's own proportion of melanosomes
     to colloidal melanin in that layer (of the whole epidermis where the layer has neither);
     every layer's thickness is scaled, and its melanin content divided by the same factor. What
-    would fill more than the whole layer is cut to fill it.
+    would fill more than the whole layer is cut to fill it: a layer's content is never above 1
+    and never falls where the state's melanin rises.
 
     As printed, 5.16 gives each layer the tanning model's share of the total melanin, not the
-    specimen's own: the untanned state of a tan is not quite the specimen itself.
+    specimen's own: the untanned state of a tan is then not quite the specimen itself, unless its
+    melanin lies so already. With `untanned` it always is: each layer's own melanin is scaled by
+    m_i(t)/m_i(0). That keeps every layer's ratio to its start, but the total only as far as the
+    layers' shares are the model's.
 
     Parameters
     ----------
@@ -226,38 +235,54 @@ def tanned(specimen: Specimen, melanin: np.ndarray, thickness: float) -> Specime
         Melanin of basale, spinosum, granulosum relative to the total at the start.
     thickness : float
         Thickness relative to the start.
+    untanned : (3,) array, optional
+        The state's melanin at which the specimen is what it is; 5.16 as printed by default.
 
     Raises
     ------
     InputError
-        If a content is negative, the thickness not positive, or either not finite.
+        If a content is negative, the thickness or the untanned melanin not positive, or one of
+        them not finite.
     """
-    melanin = np.asarray(melanin, dtype=float)
-    if melanin.shape != (3,) or not (np.all(np.isfinite(melanin)) and np.all(melanin >= 0)):
-        raise InputError(f"relative melanin is {melanin.tolist()}; allowed are 3 values from 0 on.")
-    require_range("relative thickness", thickness, 1e-3, 1e3)
-    content = _content(specimen, melanin, thickness)
+    content = np.minimum(_content(specimen, melanin, thickness, untanned), 1.0)
     changes = {
         f"{layer}_thickness": getattr(specimen, f"{layer}_thickness") * thickness
         for layer in ("corneum", *EPIDERMIS, "papillary", "reticular")
     }
-    for layer, fraction in zip(reversed(EPIDERMIS), content, strict=True):
-        share = _melanosome_share(specimen, layer)
-        percent = 100.0 * min(fraction, 1.0)
-        changes[f"{layer}_melanosomes"] = percent * share
-        changes[f"{layer}_colloidal_melanin"] = percent * (1.0 - share)
+    for layer, percent in zip(reversed(EPIDERMIS), 100.0 * content, strict=True):
+        inside = percent * _melanosome_share(specimen, layer)
+        changes[f"{layer}_melanosomes"] = inside
+        changes[f"{layer}_colloidal_melanin"] = percent - inside
     return replace(specimen, **changes)
 
 
-def overfull(specimen: Specimen, melanin: np.ndarray, thickness: float) -> bool:
+def overfull(
+    specimen: Specimen,
+    melanin: np.ndarray,
+    thickness: float,
+    untanned: np.ndarray | None = None,
+) -> bool:
     """Whether `tanned` has to cut melanin in a tanning state because it would overfill a layer."""
-    return bool(np.any(_content(specimen, melanin, thickness) > 1.0))
+    return bool(np.any(_content(specimen, melanin, thickness, untanned) > 1.0))
 
 
-def _content(specimen: Specimen, melanin: np.ndarray, thickness: float) -> np.ndarray:
-    """Melanin content of basale, spinosum, granulosum as volume fraction (5.16)."""
-    total = specimen.melanin @ specimen.epidermal_thickness
-    return melanin / specimen.epidermal_thickness * total / thickness
+def _content(
+    specimen: Specimen, melanin: np.ndarray, thickness: float, untanned: np.ndarray | None
+) -> np.ndarray:
+    """Melanin content of basale, spinosum, granulosum as volume fraction, before any cut (3,)."""
+    melanin = np.asarray(melanin, dtype=float)
+    if melanin.shape != (3,) or not (np.all(np.isfinite(melanin)) and np.all(melanin >= 0)):
+        raise InputError(f"relative melanin is {melanin.tolist()}; allowed are 3 values from 0 on.")
+    require_range("relative thickness", thickness, 1e-3, 1e3)
+    if untanned is None:
+        total = specimen.melanin @ specimen.epidermal_thickness
+        return total * melanin / specimen.epidermal_thickness / thickness
+    untanned = np.asarray(untanned, dtype=float)
+    if untanned.shape != (3,) or not (np.all(np.isfinite(untanned)) and np.all(untanned > 0)):
+        raise InputError(
+            f"relative melanin without sun is {untanned.tolist()}; allowed are 3 values above 0."
+        )
+    return specimen.melanin * melanin / untanned / thickness
 
 
 def _melanosome_share(specimen: Specimen, layer: str) -> float:
@@ -374,19 +399,3 @@ SPECIMENS = {
     )
 }
 """The four specimens of table 6.1: S1 to S3 lightly, S4 darkly pigmented."""
-
-USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
-"""Set of table 6.4 for each specimen, by the caption of table 6.1."""
-
-
-def specimen(name: str) -> Specimen:
-    """One of `SPECIMENS` by name.
-
-    Raises
-    ------
-    InputError
-        If there is none of that name.
-    """
-    if name not in SPECIMENS:
-        raise InputError(f"there is no specimen {name!r}; there are {', '.join(SPECIMENS)}.")
-    return SPECIMENS[name]

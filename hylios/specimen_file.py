@@ -6,16 +6,17 @@ from pathlib import Path
 from typing import Any
 
 from hylios.errors import InputError
+from hylios.phototypes import named_specimen
 from hylios.physiology import PHYSIOLOGY
-from hylios.specimen import Specimen, parameters, specimen, specimen_of
+from hylios.specimen import Specimen, parameters, specimen_of
 
 
 def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
     """Read a specimen from a TOML file.
 
-    `base = "S3"` starts from a specimen of table 6.1, of which the file then needs to hold only
-    what differs. Without a base it holds all of table 6.1; its name is the file's unless it gives
-    one.
+    `base = "S3"` starts from a specimen that has a name (S1 to S4, I to VI), of which the file
+    then needs to hold only what differs. Without a base it holds all of table 6.1; its name is
+    the file's unless it gives one.
 
     Raises
     ------
@@ -26,7 +27,7 @@ def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
     try:
         start = {"name": path.stem}
         if "base" in values:
-            start = asdict(specimen(str(values.pop("base"))))
+            start = asdict(named_specimen(str(values.pop("base"))))
         return specimen_of({**start, **values}, allow_unphysical=allow_unphysical)
     except InputError as error:
         raise InputError(f"the specimen in {path} cannot be used: {error}") from error

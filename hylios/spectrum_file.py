@@ -62,23 +62,42 @@ def read_spectrum(path: Path, column: str = "total") -> NamedSpectrum:
         If the file cannot be read or is no spectrum.
     """
     name = "standard input" if path == Path("-") else path.stem
-    wanted = ("wavelength_nm", column, "standard_error")
-    table = _columns(path, wanted)
-    for needed in wanted[:2]:
-        if needed not in table:
-            raise InputError(
-                f"{path} has no column {needed}; a spectrum needs wavelength_nm,{column}."
-            )
-    wavelengths, reflectance = table["wavelength_nm"], table[column]
-    error = table.get("standard_error")
-    if not wavelengths.size or not np.all(np.diff(wavelengths) > 0):
-        raise InputError(f"{path} needs one or more wavelengths, in ascending order.")
+    table = read_columns(path, (column,), ("standard_error",))
+    reflectance, error = table[column], table.get("standard_error")
     outside = reflectance[(reflectance < 0.0) | (reflectance > 1.0)]
     if outside.size:
         raise InputError(f"{path} has a {column} of {outside[0]:g}; allowed is 0 to 1.")
     if error is not None and np.any(error < 0.0):
         raise InputError(f"{path} has a standard_error of {error.min():g}; allowed is 0 or more.")
-    return NamedSpectrum(name, wavelengths, reflectance, error)
+    return NamedSpectrum(name, table["wavelength_nm"], reflectance, error)
+
+
+def read_columns(
+    path: Path, needed: Sequence[str], welcome: Sequence[str] = ()
+) -> dict[str, np.ndarray]:
+    """The columns `wavelength_nm`, ascending, and some others of a CSV file, as finite numbers.
+
+    Parameters
+    ----------
+    needed, welcome : sequence of str
+        Columns that must be there and that may. A file of two columns of numbers without a header
+        has the first that is needed.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, lacks a column or its wavelengths do not ascend.
+    """
+    required = ("wavelength_nm", *needed)
+    table = _columns(path, (*required, *welcome))
+    for column in required:
+        if column not in table:
+            raise InputError(
+                f"{path} has no column {column}; a spectrum needs {','.join(required)}."
+            )
+    if not table["wavelength_nm"].size or not np.all(np.diff(table["wavelength_nm"]) > 0):
+        raise InputError(f"{path} needs one or more wavelengths, in ascending order.")
+    return table
 
 
 def _columns(path: Path, wanted: Sequence[str]) -> dict[str, np.ndarray]:

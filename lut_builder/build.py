@@ -6,14 +6,17 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 import hylios
+from hylios.adding.ultraviolet import tabulated
 from hylios.colour import rec709_weights
+from hylios.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.profile import burley_width
-from hylios.specimen import SPECIMENS, Specimen, overfull, tanned
+from hylios.skin import UNTANNED, Skin
+from hylios.specimen import Specimen
 from hylios.spectra import Figures, estimates_within, figures
-from hylios.table import PLANES, SkinTable
+from hylios.table import PLANES, SkinTable, described_dynamics
 from hylios.tissue import FIGURES, readings
 from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
-from lut_builder.states import Skin, choose_axes
+from lut_builder.states import choose_axes
 
 BANDS_NM = (365.0, 1100.0, 1650.0)
 """The thesis's wavelengths in the ultraviolet and the infrared (figures 6.8 to 6.11)."""
@@ -108,7 +111,7 @@ def _width(exits: np.ndarray) -> float:
 
 
 def tanned_appearance(
-    specimen: Specimen,
+    made_for: Skin,
     state: np.ndarray,
     settings: Settings,
     seed: int,
@@ -117,9 +120,9 @@ def tanned_appearance(
     chosen: Mapping[str, str] | None = None,
     progress: Progress | None = None,
 ) -> Appearance:
-    """Appearance of a specimen in a tanning state (4,) by direct simulation."""
+    """Appearance of a skin in a tanning state (4,) by direct simulation."""
     result = spectrum(
-        tanned(specimen, state[:3], state[3]),
+        made_for.tanned(state[:3], state[3]),
         settings.wavelengths,
         angle=ANGLE,
         rays=settings.rays,
@@ -153,7 +156,7 @@ def build(
     states = axes.knot_states().reshape(-1, 4)
     entries = [
         tanned_appearance(
-            made_for.specimen,
+            made_for,
             state,
             settings,
             seed,
@@ -168,7 +171,7 @@ def build(
     variance = np.array([np.diag(entry.colour_covariance) for entry in entries])
     planes = dict(zip(PLANES[:4], np.moveaxis(values, 1, 0), strict=True))
     planes["colour_error"] = np.sqrt(variance)
-    cut = sum(overfull(made_for.specimen, state[:3], state[3]) for state in states)
+    cut = sum(made_for.overfull(state[:3], state[3]) for state in states)
     return SkinTable(
         axes=axes,
         planes={name: plane.reshape(*axes.shape, -1) for name, plane in planes.items()},
@@ -190,14 +193,17 @@ def _provenance(
     own = figures()
     return {
         "software": f"skin-tan {hylios.__version__}",
+        "skin": _phototype(made_for),
         "specimen": _described(made_for.specimen),
         "specimen_parameters": asdict(made_for.specimen),
-        "untanned_state": "melanin of each layer by the tanning set's steady state (5.16)",
+        "untanned_state": UNTANNED[made_for.untanned],
         "pigmentation": made_for.pigmentation,
+        "melanin_dynamics": described_dynamics(made_for.dynamics),
         "mmd_sed": made_for.mmd,
         "med_sed": made_for.med,
         "solver": "random walk",
         "readings": dict(decided),
+        "absorptance": _absorptance(made_for.specimen, known, decided),
         "own_figures": {
             name: known[name].source for name in FIGURES if known[name] is not own[name]
         },
@@ -212,9 +218,23 @@ def _provenance(
     }
 
 
+def _absorptance(specimen: Specimen, known: Figures, decided: Mapping[str, str]) -> dict:
+    """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
+    found = tabulated(specimen, known=known, chosen=decided)
+    return {
+        "wavelengths_nm": found.wavelengths.tolist(),
+        "values": np.round(found.values, 5).tolist(),
+    }
+
+
+def _phototype(made_for: Skin) -> str | None:
+    """Name of the Fitzpatrick type that a skin is, unless something in it was set otherwise."""
+    return next((name for name in PHOTOTYPES if phototype(name).skin == made_for), None)
+
+
 def _described(specimen: Specimen) -> str:
     """The specimen's name, with what was set in it."""
-    usual = SPECIMENS.get(specimen.name)
+    usual = specimens().get(specimen.name)
     changes = [
         f"{name}={value}"
         for name, value in asdict(specimen).items()

@@ -6,11 +6,12 @@ import numpy as np
 
 from hylios.colour import difference
 from hylios.errors import InputError, require_whole
+from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
-from hylios.table import PLANES, SkinTable
+from hylios.table import PLANES, SkinTable, melanin_dynamics
 from hylios.transport.simulate import MOST_RAYS, Progress
 from lut_builder.build import Settings, tanned_appearance
-from lut_builder.states import Skin, reachable_states, skin
+from lut_builder.states import reachable_states
 
 NOISE_DRAWS = 200
 
@@ -42,6 +43,9 @@ class Check:
 def skin_of(table: SkinTable) -> Skin:
     """The skin that a table was made for, from its header.
 
+    The dynamics are those that the header spells out; where it does not, as in the first tables,
+    those of the tanning set that it names.
+
     Raises
     ------
     InputError
@@ -49,10 +53,26 @@ def skin_of(table: SkinTable) -> Skin:
     """
     made = table.provenance
     try:
-        specimen = Specimen(**made["specimen_parameters"])
-        return skin(specimen, made["pigmentation"], float(made["mmd_sed"]), float(made["med_sed"]))
+        return Skin(
+            specimen=Specimen(**made["specimen_parameters"]),
+            pigmentation=made["pigmentation"],
+            mmd=float(made["mmd_sed"]),
+            med=float(made["med_sed"]),
+            dynamics=melanin_dynamics(made),
+            untanned=_untanned(made["untanned_state"]),
+        )
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"the table does not say for which skin it was made: {error}") from error
+
+
+def _untanned(sentence: str) -> str:
+    """Name of the untanned state that a header describes."""
+    names = {said: name for name, said in UNTANNED.items()}
+    if sentence not in names:
+        raise InputError(
+            f"the table's untanned state is {sentence!r}; allowed are {'; '.join(names)}."
+        )
+    return names[sentence]
 
 
 def settings_of(table: SkinTable) -> Settings:
@@ -99,7 +119,7 @@ def check(
     for index, state in enumerate(states):
         own_seed = int(np.random.SeedSequence((seed, index)).generate_state(1)[0])
         entry = tanned_appearance(
-            made_for.specimen,
+            made_for,
             state,
             settings,
             own_seed,

@@ -15,14 +15,16 @@ from hylios.errors import require_range, require_whole
 from hylios.files import require_target
 from hylios.shell import (
     add_skin_arguments,
+    add_tanning_arguments,
     add_work_arguments,
     chosen_skin,
+    chosen_tanning_skin,
     number,
     require_work,
     run,
 )
+from hylios.skin import UNTANNED
 from hylios.table import read_table
-from hylios.tanning import PIGMENTATIONS
 
 if TYPE_CHECKING:
     from lut_builder.build import Settings
@@ -47,13 +49,14 @@ def _parser() -> argparse.ArgumentParser:
     building.set_defaults(command=_build)
     add_skin_arguments(building)
     add_work_arguments(building)
+    add_tanning_arguments(building)
     building.add_argument(
-        "--pigmentation",
-        choices=list(PIGMENTATIONS),
-        help="tanning set of table 6.4 (default: the specimen's)",
+        "--untanned",
+        choices=list(UNTANNED),
+        default="steady_state",
+        help="skin without sun: 5.16 as printed, melanin by the tanning set's steady state, or "
+        "the specimen's own distribution",
     )
-    building.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED")
-    building.add_argument("--med", type=float, help="minimal erythema dose, SED")
     building.add_argument("--preset", choices=["small", "standard"], default="standard")
     building.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
     building.add_argument("--step", type=float, help="spacing of visible wavelengths, nm")
@@ -103,14 +106,15 @@ def _settings(asked: argparse.Namespace) -> "Settings":
 def _build(asked: argparse.Namespace) -> None:
     require_target(asked.output, (".exr",), asked.force)
     require_work(asked)
-    specimen, known, chosen = chosen_skin(asked)
+    _, known, chosen = chosen_skin(asked)
+    made_for = chosen_tanning_skin(asked, asked.untanned)
 
     from lut_builder.build import build
     from lut_builder.exr import write_table
-    from lut_builder.states import skin
+    from lut_builder.states import choose_axes
 
-    made_for = skin(specimen, asked.pigmentation, asked.mmd, asked.med)
     settings = _settings(asked)
+    settings = replace(settings, knots=choose_axes(made_for, settings.knots).shape)
     with _progress(settings.total_rays, f"table of {settings.states} states") as progress:
         table = build(
             made_for,

@@ -4,21 +4,12 @@ In the logarithm of (melanin of three layers, thickness) relative to the untanne
 that sunshine can bring about lie near a curved sheet; its principal axes are the table's.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from hylios.errors import InputError, require_range
-from hylios.specimen import USUAL_PIGMENTATION, Specimen
+from hylios.errors import InputError
+from hylios.skin import Skin
 from hylios.table import StateAxes
-from hylios.tanning import (
-    PIGMENTATIONS,
-    Exposures,
-    MelaninDynamics,
-    minimal_erythema_dose,
-    minimal_melanogenesis_dose,
-    simulate,
-)
+from hylios.tanning import Exposures, simulate
 
 DAYS = 60
 MOST_EXPOSURES = 11
@@ -28,60 +19,9 @@ LEAST_DOSE, MOST_DOSE = 0.35, 10.5
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
 
-
-@dataclass(frozen=True)
-class Skin:
-    """A specimen with the way it tans: what a table is made for.
-
-    Attributes
-    ----------
-    specimen : Specimen
-    pigmentation : str
-        Set of table 6.4: low, intermediate or high.
-    mmd, med : float
-        Minimal melanogenesis and erythema dose in SED.
-    """
-
-    specimen: Specimen
-    pigmentation: str
-    mmd: float
-    med: float
-
-    @property
-    def dynamics(self) -> MelaninDynamics:
-        """Parameters of the melanin dynamics."""
-        return PIGMENTATIONS[self.pigmentation]
-
-
-def skin(
-    specimen: Specimen,
-    pigmentation: str | None = None,
-    mmd: float | None = None,
-    med: float | None = None,
-) -> Skin:
-    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
-
-    Melanin outside the equations' range, such as none at all, counts as the range's end.
-
-    Raises
-    ------
-    InputError
-        If a minimal dose is out of range or there is no such tanning set.
-    """
-    level = min(max(specimen.pigmentation, 0.013), 0.43)
-    mmd = minimal_melanogenesis_dose(level) if mmd is None else mmd
-    med = minimal_erythema_dose(level) if med is None else med
-    pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
-    if pigmentation not in PIGMENTATIONS:
-        raise InputError(
-            f"pigmentation is {pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
-        )
-    return Skin(
-        specimen=specimen,
-        pigmentation=pigmentation,
-        mmd=require_range("MMD", mmd, 0.01, 1000.0, "SED"),
-        med=require_range("MED", med, 0.01, 1000.0, "SED"),
-    )
+LEAST_SPAN = 1e-6
+"""Of the states seen along an axis, in the logarithm; a narrower axis is rounding's and gets one
+knot, as all but the first in skin that makes no melanin in the sun."""
 
 
 def reachable_states(made_for: Skin, schedules: int, seed: int) -> np.ndarray:
@@ -107,19 +47,34 @@ def reachable_states(made_for: Skin, schedules: int, seed: int) -> np.ndarray:
 
 
 def untanned_state(made_for: Skin) -> np.ndarray:
-    """The state (4,) without sun."""
-    steady = made_for.dynamics.steady_state()
-    return np.append(steady / steady.sum(), 1.0)
+    """The state (4,) without sun.
+
+    Raises
+    ------
+    InputError
+        If the way the skin tans leaves a layer without melanin: no ratio to nothing is a state.
+    """
+    if not np.all(made_for.untanned_melanin > 0.0):
+        raise InputError(
+            f"melanin without sun is {made_for.untanned_melanin.tolist()} of basale, spinosum, "
+            "granulosum; a table needs more than 0 in each."
+        )
+    return np.append(made_for.untanned_melanin, 1.0)
 
 
 def choose_axes(made_for: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
     """Principal axes of the reachable states with the given numbers of knots.
 
     Knots lie evenly from the smallest to the largest coordinate seen, moved so that the untanned
-    skin, at 0 on every axis, is one of them.
+    skin, at 0 on every axis, is one of them. An axis along which nothing changes gets one knot.
+
+    Raises
+    ------
+    InputError
+        As `untanned_state`.
     """
-    states = reachable_states(made_for, 400, seed)
     untanned = untanned_state(made_for)
+    states = reachable_states(made_for, 400, seed)
     _, _, directions = np.linalg.svd(np.log(states / untanned), full_matrices=False)
     basis = directions[: len(knots)].T
     basis = basis * np.sign(basis.sum(axis=0))
@@ -139,6 +94,8 @@ def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
 
     A side that is hardly reached at all, such as less melanin than the untanned skin's, gets none.
     """
+    if highest - lowest < LEAST_SPAN:
+        return np.zeros(1)
     margin = MARGIN * (highest - lowest)
     low = lowest - margin if lowest < -margin else 0.0
     high = highest + margin if highest > margin else 0.0

@@ -10,8 +10,8 @@ import numpy as np
 from examples.demo import swimsuit
 from examples.demo.render import Light, Window
 from hylios import colour
-from hylios.table import SkinTable
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.table import SkinTable, melanin_dynamics
+from hylios.tanning import Exposures, simulate
 
 SKINS = ("untanned", "tanned")
 PATCH_RADIUS = 0.012  # metres
@@ -121,7 +121,7 @@ def predictions(table: SkinTable, dose: float, days: Sequence[float]) -> np.ndar
     described = table.provenance
     history = simulate(
         Exposures(hours=np.array([0]), doses=np.array([[0.0], [dose]])),
-        PIGMENTATIONS[described["pigmentation"]],
+        melanin_dynamics(described),
         mmd=described["mmd_sed"],
         med=described["med_sed"],
         hours=max(hours),

@@ -21,6 +21,8 @@ from examples.figures import (
     predecessors,
     report,
     sensitivity,
+    tanning,
+    tanning_claims,
 )
 from examples.figures.light import Effort, Task
 from examples.figures.measured_people import read_people
@@ -36,6 +38,8 @@ GROUPS = (
     angular,
     sensitivity,
     compression,
+    tanning,
+    tanning_claims,
     people,
 )
 """Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""

@@ -62,7 +62,7 @@ def with_noise(where: str, what: str, printed: float, ours: float, noisy: float,
 
 def claim(where: str, what: str, printed: str, ours: str, met: bool) -> Row:
     """A row for something that the thesis says, without noise."""
-    return Row(where, what, printed, ours, aim="as printed", met=met)
+    return Row(where, what, printed, ours, aim="as printed", met=bool(met))  # numpy's is no bool
 
 
 def agreement(where: str, name: str, exact: Curve, walked: Curve) -> Row:

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from hylios.skin import skin
 from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
 from hylios.tanning import Exposures, simulate
-from lut_builder.states import skin
 
 DOSE = 30.0  # SED, on day 0
 DAYS = (0, 2, 10, 30)

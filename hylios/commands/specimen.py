@@ -4,9 +4,10 @@ import argparse
 import textwrap
 from dataclasses import MISSING
 
+from hylios.phototypes import PHOTOTYPES, specimens
 from hylios.physiology import PHYSIOLOGY
 from hylios.shell import add_specimen_arguments, chosen_specimen
-from hylios.specimen import ARRANGEMENTS, SPECIMENS, Specimen, parameters
+from hylios.specimen import ARRANGEMENTS, Specimen, parameters
 from hylios.specimen_file import specimen_toml
 
 COLUMNS = ("parameter", "value", "unit", "physiological", "range", "value from", "meaning")
@@ -68,10 +69,10 @@ def _one_of() -> str:
 
 
 def _origin(specimen: Specimen, parameter) -> str:
-    """Where a value is from: the thesis with what it cites, or whoever gave the specimen."""
-    usual = SPECIMENS.get(specimen.name)
-    in_table_6_1 = parameter.default is MISSING
-    printed = getattr(usual, parameter.name, None) if in_table_6_1 else parameter.default
-    if getattr(specimen, parameter.name) != printed:
+    """Where a value is from: a table and what it cites, a type's fit, or whoever gave it."""
+    value, cited = getattr(specimen, parameter.name), PHYSIOLOGY[parameter.name].cited
+    if parameter.default is not MISSING and value == parameter.default:
+        return f"table 6.2 {cited}"
+    if value != getattr(specimens().get(specimen.name), parameter.name, None):
         return "given"
-    return f"table {'6.1' if in_table_6_1 else '6.2'} {PHYSIOLOGY[parameter.name].cited}"
+    return "hylios/phototypes" if specimen.name in PHOTOTYPES else f"table 6.1 {cited}"

@@ -31,7 +31,6 @@ def add_to(commands) -> None:
     parser.set_defaults(command=run)
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE.csv", help="- is stdin")
     add_skin_arguments(parser)
-    parser.set_defaults(specimen=None)
     add_work_arguments(parser)
     parser.add_argument("--band", choices=("visible", "uv", "ir"), default="visible")
     parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
@@ -69,7 +68,6 @@ def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
     require_work(asked)
-    asked.specimen = asked.specimen or "S3"
     specimen, known, chosen = chosen_skin(asked)
     first, last = BANDS[asked.band]
     step = require_range("step", asked.step, 1.0, last - first, "nm")

@@ -5,6 +5,7 @@ which needs numpy and the standard library alone. `docs/table_format.md` describ
 """
 
 from hylios.table.axes import STATE_NAMES, StateAxes
+from hylios.table.dynamics import described_dynamics, melanin_dynamics
 from hylios.table.file import read_table
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.layout import (
@@ -32,7 +33,9 @@ __all__ = [
     "SkinTable",
     "StateAxes",
     "StoredTable",
+    "described_dynamics",
     "from_stored",
+    "melanin_dynamics",
     "read_table",
     "to_stored",
 ]

@@ -4,7 +4,8 @@ import bpy
 import pytest
 from synthetic import tan_object
 
-from blender_addon import panels, tables
+from blender_addon import doses, panels, tables
+from hylios.ultraviolet.dose import Absorptance
 
 ICONS = {
     item.identifier
@@ -88,6 +89,31 @@ def test_with_every_setting(table_path):
     assert "30 SED: 4.2 h of strong summer sun" in labels
     bpy.ops.skin_tan.apply()
     assert "This frame shows day 0.0" in drawn()
+
+
+@pytest.mark.parametrize(
+    ("unit", "line", "label"),
+    [
+        ("MMD", "2 MMD", "9.8 SED: 1.4 h of strong summer sun"),
+        ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong summer sun"),
+        ("SUN", "Sun 11-15 h", "No dose: the table does not say what its skin abs"),
+    ],
+)
+def test_every_unit_says_what_reaches_the_skin(table_path, unit, line, label):
+    """This table does not say what its skin absorbs, as the sun by date needs it."""
+    obj = tan_object(table_path)
+    obj.skin_tan.exposures[0].unit = unit
+    labels = drawn()
+    assert line in labels and label in labels
+    obj.skin_tan.exposures[0].sunscreen = True
+    assert label not in drawn() or unit == "SUN"
+
+
+def test_the_sun_says_that_its_dose_is_provisional(table_path, monkeypatch):
+    obj = tan_object(table_path)
+    obj.skin_tan.exposures[0].unit = "SUN"
+    monkeypatch.setattr(doses, "absorptance", lambda _: Absorptance([280.0, 400.0], [0.9, 0.9]))
+    assert any("SED (provisional)" in label for label in drawn())
 
 
 def test_a_new_object_says_what_to_do():

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from synthetic import UNTANNED_COLOUR, add_camera, render, tan_object, white_world
 
-from blender_addon.tan import Exposure, tan
+from blender_addon.tan import tan
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.ultraviolet.exposures import joined, of_sed
 
 FIRST_DAY, LAST_DAY, FIRST_FRAME, LAST_FRAME = 2.0, 20.0, 10, 190
 DAYS_PER_FRAME = (LAST_DAY - FIRST_DAY) / (LAST_FRAME - FIRST_FRAME)
@@ -134,7 +135,7 @@ def test_image_against_direct_simulation(table):
     for hours, doses in (([0], [30.0]), ([0, 24, 48, 72], [8.0] * 4), ([0, 130], [12.0, 20.0])):
         image = tan(
             table,
-            [Exposure(hour / 24.0, dose) for hour, dose in zip(hours, doses, strict=True)],
+            joined([of_sed(hour, dose) for hour, dose in zip(hours, doses, strict=True)]),
             mmd=4.9,
             med=2.9,
             first_day=0.0,

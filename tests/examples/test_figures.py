@@ -133,6 +133,7 @@ def test_rows_become_a_table():
         report.relative("table 6.3", "DNA", 0.135, 0.0135, 0.15),
         report.claim("C.1", "sign", "higher", "+0.01", True),
     ]
+    assert report.claim("C.1", "sign", "higher", "-0.01", np.False_).met is False
     lines = report.markdown(rows).splitlines()
     assert lines[2] == "| table 6.3 | DNA | 0.135 | 0.0135 (-90%) | none | within 15% | **no** |"
     assert lines[3] == "| C.1 | sign | higher | +0.01 | none | as printed | yes |"

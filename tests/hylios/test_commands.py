@@ -58,7 +58,7 @@ def test_tan_prints_every_hour(capsys):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ("reflectance --specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4."),
+        ("reflectance --specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4, I,"),
         ("reflectance --set blood=1", "there is no parameter 'blood'"),
         ("reflectance --set papillary_blood", "expected NAME=VALUE"),
         ("reflectance --set papillary_blood=x", "papillary_blood is 'x'; expected a number."),
@@ -67,7 +67,7 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --set papillary_blood=120 --allow-unphysical", "; allowed is 0 to 100 %."),
         ("reflectance --set name=Ada", "the name of a specimen is no parameter"),
         ("reflectance --specimen none.toml", "none.toml cannot be read: No such file"),
-        ("specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4."),
+        ("specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4, I,"),
         ("specimen --set basale_thickness=", "basale_thickness is ''; expected a number."),
         ("reflectance --wavelengths 700:400:5", "expected FIRST:LAST:STEP"),
         ("reflectance --wavelengths 200", "allowed is 250 to 2500 nm"),

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS, overfull, parameters, specimen, with_values
+from hylios.phototypes import named_specimen
+from hylios.specimen import SPECIMENS, overfull, parameters, with_values
 from hylios.spectra import estimates_within, figures, replaced
 from hylios.tissue import (
     blood_coefficient,
@@ -192,7 +193,7 @@ def test_bad_parameters_are_named():
     with pytest.raises(InputError, match="there is no parameter 'blood'"):
         with_values(SPECIMENS["S3"], {"blood": 1.0})
     with pytest.raises(InputError, match="there is no specimen 'S9'; there are S1, S2, S3, S4"):
-        specimen("S9")
+        named_specimen("S9")
     with pytest.raises(InputError, match="corneum_thickness is nan cm"):
         with_values(SPECIMENS["S3"], {"corneum_thickness": float("nan")})
 

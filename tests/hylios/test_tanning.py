@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hylios.dose import equivalent_dose
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS, tanned
 from hylios.spectra import figures
@@ -25,6 +24,7 @@ from hylios.tanning import (
     states_at,
 )
 from hylios.tanning.recurrence import no_steps
+from hylios.ultraviolet.dose import equivalent_dose
 
 
 def one_dose(dose, pigmentation="intermediate", hours=720, mmd=2.89, med=1.7):

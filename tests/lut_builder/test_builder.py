@@ -6,20 +6,33 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import OpenImageIO as oiio  # noqa: N813
 import pytest
 
 from hylios.errors import InputError
+from hylios.phototypes import phototype
+from hylios.shell import chosen_tanning_skin
+from hylios.skin import skin
 from hylios.specimen import SPECIMENS
-from hylios.table import HEADER_ATTRIBUTE, PLANES, SkinTable, read_table, to_stored
+from hylios.table import (
+    HEADER_ATTRIBUTE,
+    PLANES,
+    SkinTable,
+    described_dynamics,
+    from_stored,
+    melanin_dynamics,
+    read_table,
+    to_stored,
+)
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
 from lut_builder.build import PRESETS, Settings, build, tanned_appearance, visible_wavelengths
 from lut_builder.check import check, settings_of, skin_of
-from lut_builder.cli import main
+from lut_builder.cli import _parser, main
 from lut_builder.exr import write_table
-from lut_builder.states import choose_axes, reachable_states, skin, untanned_state
+from lut_builder.states import choose_axes, reachable_states, untanned_state
 
 TINY = Settings(knots=(3, 2), visible=visible_wavelengths(60.0), rays=1500)
 
@@ -67,7 +80,7 @@ def test_reachable_states_are_those_that_the_issue_of_a_tan_can_be():
 def test_an_entry_is_the_simulation_of_its_state(tiny):
     made_for = skin_of(tiny)
     state = tiny.axes.knot_states()[2, 1]
-    entry = tanned_appearance(made_for.specimen, state, TINY, seed=1)
+    entry = tanned_appearance(made_for, state, TINY, seed=1)
     for name, expected in zip(PLANES, entry.values, strict=False):
         assert np.array_equal(tiny.planes[name][2, 1], expected)
     assert np.array_equal(
@@ -173,6 +186,9 @@ def test_checked_states_are_no_knots(tiny):
         {"pigmentation": "foo"},
         {"mmd_sed": "x"},
         {"specimen_parameters": {"name": "S3"}},
+        {"untanned_state": "as it pleases"},
+        {"melanin_dynamics": {}},
+        {"melanin_dynamics": None},
     ],
 )
 def test_a_header_without_what_check_needs_is_refused(tiny, change):
@@ -180,6 +196,97 @@ def test_a_header_without_what_check_needs_is_refused(tiny, change):
     with pytest.raises(InputError):
         skin_of(other)
         settings_of(other)
+
+
+def test_a_header_spells_out_how_its_skin_tans(tiny):
+    """The numbers count, not the set's name; without them, as in the first tables, the name."""
+    made_for = skin(
+        SPECIMENS["S3"], "low", tanning={"basale_extra_production": 0.05}, untanned="own"
+    )
+    table = build(made_for, replace(TINY, rays=100), seed=1)
+    again = from_stored(to_stored(table))
+    assert skin_of(again) == made_for
+    assert again.provenance["skin"] is None
+    assert "scaled by m_i(t)/m_i(0)" in again.provenance["untanned_state"]
+    named = {key: each for key, each in tiny.provenance.items() if key != "melanin_dynamics"}
+    assert skin_of(SkinTable(tiny.axes, tiny.planes, named)) == skin_of(tiny)
+    assert melanin_dynamics({"pigmentation": "high"}) == PIGMENTATIONS["high"]
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"transfer": [0.1, 0.1]}, r"the table's transfer is \[0.1, 0.1\]; expected 3 numbers."),
+        ({"transfer": 0.1}, "the table's transfer is 0.1; expected 3 numbers."),
+        ({"transfer": [0.1, "x", 0.1]}, "expected 3 numbers."),
+        ({"production": [0.1, True, 0.1]}, "expected 3 numbers."),
+        ({"melanin_decay": None}, "the table's melanin_decay is None; expected a number."),
+        ({"melanin_decay": [0.9]}, "expected a number."),
+        ({"melanin_decay": float("nan")}, "the table's melanin_decay is nan; expected a number."),
+        ({"melanin_decay": 10**400}, "expected a number."),
+        ({"melanin_decay": 2.0}, "melanin_decay is 2; allowed is 0 to 1."),
+        ({"surplus": 1.0}, "the table's melanin dynamics need the rates production, transfer"),
+    ],
+)
+def test_dynamics_that_are_none_are_refused(change, sentence):
+    usual = described_dynamics(PIGMENTATIONS["low"])
+    with pytest.raises(InputError, match=sentence):
+        melanin_dynamics({"pigmentation": "low", "melanin_dynamics": {**usual, **change}})
+
+
+def test_a_layer_without_melanin_has_no_axes():
+    made_for = skin(SPECIMENS["S3"], "low", tanning={"basale_transfer": 0.0})
+    with pytest.raises(InputError, match="melanin without sun is .* more than 0 in each"):
+        choose_axes(made_for, (3, 2))
+
+
+def test_skin_that_makes_no_melanin_varies_in_thickness_alone():
+    made_for = phototype("I").skin
+    axes = choose_axes(made_for, (5, 3, 2))
+    assert axes.shape == (5, 1, 1)
+    assert np.abs(axes.basis[:, 0]) == pytest.approx([0.0, 0.0, 0.0, 1.0], abs=1e-9)
+    states = axes.knot_states()
+    assert np.ptp(states[..., :3], axis=0).max() < 1e-9
+    assert states[..., 3].min() == 1.0
+
+
+@pytest.mark.parametrize(
+    ("asked", "name", "tanning"),
+    [
+        ("--skin V", "V", "V"),
+        ("--specimen IV", "IV", "IV"),
+        ("--skin III --mmd 7 --set papillary_blood=1", None, "III"),
+        ("--specimen S4 --pigmentation high --untanned own", None, None),
+    ],
+)
+def test_a_table_of_a_type(tmp_path, asked, name, tanning):
+    path = tmp_path / "t.exr"
+    quick = f"--knots 2 --step 100 --rays 100 -o {path}"
+    assert main(["build", *asked.split(), *quick.split()]) == 0
+    table = read_table(path)
+    assert table.provenance["skin"] == name
+    made_for = skin_of(table)
+    if name is not None:
+        assert made_for == phototype(name).skin
+        assert table.provenance["specimen"] == name
+    elif tanning is not None:
+        assert made_for.dynamics == phototype(tanning).skin.dynamics
+        assert made_for.mmd == 7.0
+        assert table.provenance["specimen"].startswith("III with papillary_blood=1.0")
+    else:
+        assert made_for == skin(SPECIMENS["S4"], untanned="own")
+
+
+def test_a_types_own_ability_gives_way_to_what_is_set():
+    """A single rate replaces the type's; a set named replaces them all."""
+    low = PIGMENTATIONS["low"]
+    for more, dynamics in (
+        ("--tanning basale_extra_production=0.0858", replace(low, extra_production=(0.0858, 0, 0))),
+        ("--pigmentation low", low),
+        ("--pigmentation high", PIGMENTATIONS["high"]),
+    ):
+        asked = _parser().parse_args(["build", "--skin", "IV", *more.split(), "-o", "t.exr"])
+        assert chosen_tanning_skin(asked).dynamics == dynamics
 
 
 def test_the_command_builds_describes_and_checks(tmp_path, capsys):
@@ -224,6 +331,10 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
         ("build --rays 1 -o {}/t.exr", "number of rays is 1; allowed is 100 to 1000000000."),
         ("build --step 0 -o {}/t.exr", "step is 0 nm; allowed is 1 to 100 nm."),
         ("build --mmd 0 -o {}/t.exr", "MMD is 0 SED"),
+        ("build --skin I --specimen S3 -o {}/t.exr", "both the skin type I and the specimen S3"),
+        ("build --tanning production=1 -o {}/t.exr", "there is no rate 'production' of tanning"),
+        ("build --tanning melanin_decay=x -o {}/t.exr", "melanin_decay is 'x'; expected a number"),
+        ("build --tanning melanin_decay -o {}/t.exr", "a rate of tanning is 'melanin_decay'"),
         ("build -o {}/no/t.exr", "cannot be written: No such file or directory"),
         ("info {}/none.exr", "cannot be read"),
         ("check {}/none.exr", "cannot be read"),

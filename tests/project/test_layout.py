@@ -18,16 +18,23 @@ ALLOWED = {
     "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
     "hylios/table": {"numpy"},
     "hylios/transport": {"numpy", "numba"},
+    "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
 
-LIGHT_ROOMS = ("hylios/transport", "hylios/commands", "hylios/predecessors", "hylios/fit.py")
+LIGHT_ROOMS = (
+    "hylios/transport",
+    "hylios/commands",
+    "hylios/predecessors",
+    "hylios/fit.py",
+    "hylios/phototypes/fitting.py",
+)
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
-NUMPY_ONLY = ("tanning", "table", "errors")
+NUMPY_ONLY = ("errors", "spectra", "table", "tanning", "ultraviolet")
 """What of `hylios` the add-on may use: what its wheel carries."""
 
 
@@ -67,6 +74,17 @@ def test_numba_and_colour_stay_in_their_rooms(path):
     if inside.startswith("hylios/") and not inside.startswith(LIGHT_ROOMS):
         for name, _ in imported(path):
             assert not name.startswith(("hylios.transport", "hylios.colour")), f"{inside}: {name}"
+
+
+@pytest.mark.parametrize(
+    "path",
+    [each for each in SOURCES if each.relative_to(ROOT).parts[1].removesuffix(".py") in NUMPY_ONLY],
+    ids=lambda path: path.name,
+)
+def test_what_the_add_on_carries_needs_nothing_else_of_hylios(path):
+    for name, _ in imported(path):
+        if name.startswith("hylios."):
+            assert name.split(".")[1] in NUMPY_ONLY, f"{path.name} imports {name}"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,127 @@
+"""What the figures of tans share: skins, dose schedules, and the colour of a tanning state.
+
+The thesis only plots its dose schedules. What is not printed anywhere is ASSUMED here, and said
+so in the pictures and the report.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hylios.adding import spectrum
+from hylios.quadrature import skin_quadrature
+from hylios.specimen import SPECIMENS, Specimen, parameters, tanned
+from hylios.tanning import (
+    PIGMENTATIONS,
+    Exposures,
+    TanningHistory,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+    simulate,
+)
+
+Schedule = Sequence[tuple[float, float]]
+"""Doses as (day, SED)."""
+
+WEEK, WITHIN_WEEK = 7.0, (0.0, 3.0)
+"""Days of a week and those of its exposures. ASSUMED: ten in five weeks are two a week."""
+
+MILLER_DOSES = {"42 SED": (10, 42.0), "29 SED": (8, 29.0), "19 SED": (8, 19.0)}
+"""Number and sum in SED of the doses of each schedule.
+
+From the abstract of Miller et al. 2008 (British Journal of Dermatology 159, 921): 4200 J/m^2 as 10
+exposures in 5 weeks, 2900 as 8 in 4 weeks, 1900 in 4 weeks, one to three exposures a week. That
+these are the three of figure 6.23, that the last are 8, and single doses are ASSUMED: the paper
+behind reference 121 could not be established nor its figures be had.
+"""
+
+
+def days_of(count: int) -> np.ndarray:
+    """Days of so many exposures, two a week, the first on day 0."""
+    return np.array([WEEK * (n // 2) + WITHIN_WEEK[n % 2] for n in range(count)])
+
+
+def evenly(count: int, total: float) -> Schedule:
+    """A schedule of so many equal doses."""
+    return [(float(day), total / count) for day in days_of(count)]
+
+
+def rising(count: int, total: float, first: float) -> Schedule:
+    """A schedule of so many doses that rise by equal steps from the first."""
+    doses = np.linspace(first, 2.0 * total / count - first, count)
+    return [(float(day), float(dose)) for day, dose in zip(days_of(count), doses, strict=True)]
+
+
+SCHEDULES = {name: evenly(*doses) for name, doses in MILLER_DOSES.items()}
+"""The three schedules of figure 6.23. ASSUMED: equal doses."""
+
+
+@dataclass(frozen=True)
+class Skin:
+    """A specimen of the light model joined with a tanning set and its minimal doses in SED."""
+
+    specimen: Specimen
+    pigmentation: str
+    mmd: float
+    med: float
+
+
+def by_pigmentation(specimen: Specimen, pigmentation: str) -> Skin:
+    """A skin with the minimal doses of its melanin (3.1, 3.2)."""
+    level = specimen.pigmentation
+    return Skin(
+        specimen, pigmentation, minimal_melanogenesis_dose(level), minimal_erythema_dose(level)
+    )
+
+
+def between() -> Specimen:
+    """A specimen whose every number is the geometric mean of S3's and S4's."""
+    light, dark = SPECIMENS["S3"], SPECIMENS["S4"]
+    mean = {
+        each.name: float(np.sqrt(getattr(light, each.name) * getattr(dark, each.name)))
+        for each in parameters()
+    }
+    return replace(light, name="between S3 and S4", **mean)
+
+
+MILLER_SKIN = Skin(SPECIMENS["S3"], "low", mmd=2.89, med=1.7)
+"""Minimal doses as section 6.2.2 prints them. ASSUMED: S3 stands for the low level."""
+
+SKINS = {
+    "low": by_pigmentation(SPECIMENS["S3"], "low"),
+    "intermediate": by_pigmentation(between(), "intermediate"),
+    "high": by_pigmentation(SPECIMENS["S4"], "high"),
+}
+"""S3, S4 and one between, for the intermediate set. ASSUMED: the thesis names no such specimen."""
+
+COLOUR_WAVELENGTHS = 8
+"""At which the light model is asked for a colour: within .03 in L* of a spectrum every 10 nm."""
+
+
+def history(skin: Skin, schedule: Schedule, days: float) -> TanningHistory:
+    """The skin's state after a schedule, every hour up to a day."""
+    hours = np.array([round(24 * day) for day, _ in schedule])
+    return _simulated(skin, Exposures(hours, np.array([dose for _, dose in schedule])), days)
+
+
+def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHistory:
+    """States after one dose on day 0, for each of some doses in SED; shapes (D, T, ...)."""
+    return _simulated(skin, Exposures(np.array([0]), np.array(doses, dtype=float)[:, None]), days)
+
+
+def _simulated(skin: Skin, exposures: Exposures, days: float) -> TanningHistory:
+    return simulate(
+        exposures,
+        PIGMENTATIONS[skin.pigmentation],
+        mmd=skin.mmd,
+        med=skin.med,
+        hours=round(24 * days),
+    )
+
+
+def colour(skin: Skin, melanin: np.ndarray, thickness: float) -> np.ndarray:
+    """Linear Rec.709 (3,) under D65 of the skin in a tanning state, without noise, at 8 degrees."""
+    quadrature = skin_quadrature(COLOUR_WAVELENGTHS)
+    found = spectrum(tanned(skin.specimen, melanin, thickness), quadrature.wavelengths)
+    return quadrature.weights @ found.total

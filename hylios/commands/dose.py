@@ -1,0 +1,46 @@
+"""`hylios dose`: what exposures amount to for a skin, as CSV."""
+
+import argparse
+
+import numpy as np
+
+from hylios.commands.exposures import (
+    add_chosen_arguments,
+    add_exposure_arguments,
+    chosen,
+    chosen_doses,
+)
+from hylios.shell import print_table
+
+DESCRIPTION = """\
+One line for each hour of the tanning model and each exposure: the dose as a meter shows it, as it
+counts for melanin (5.1 to 5.4 of the thesis) and for thickness (5.17 to 5.20), all in SED, and the
+multiples of the minimal doses that these are.
+"""
+
+
+def add_to(commands) -> None:
+    """Add the command to an argument parser's subcommands."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "dose", help="doses of sun, lamps and UV index", description=DESCRIPTION
+    )
+    parser.set_defaults(command=run)
+    add_chosen_arguments(parser)
+    add_exposure_arguments(parser)
+
+
+def run(asked: argparse.Namespace) -> None:
+    """Compute and print."""
+    of = chosen(asked)
+    doses = chosen_doses(asked, of)
+    checked = doses.exposures()
+    order = np.argsort(checked.hours, kind="stable")
+    columns = {
+        "hour": checked.hours,
+        "erythemal_sed": doses.erythemal,
+        "melanogenesis_sed": doses.melanogenesis,
+        "thickening_sed": doses.thickening,
+        "mmd_multiple": doses.melanogenesis / of.skin.mmd,
+        "med_multiple": doses.thickening / of.skin.med,
+    }
+    print_table({name: values[order] for name, values in columns.items()}, digits=10)

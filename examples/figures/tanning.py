@@ -21,13 +21,13 @@ from examples.figures.tans import (
     SCHEDULES,
     SKINS,
     Schedule,
-    Skin,
     colour,
     history,
     rising,
 )
 from hylios.colour import lab
 from hylios.pictures import write_figure
+from hylios.skin import Skin
 from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory, simulate
 
 FIGURES = ("6.21", "6.23", "B.1", "B.2")

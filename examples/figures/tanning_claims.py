@@ -15,7 +15,6 @@ from examples.figures.tans import (
     COLOUR_WAVELENGTHS,
     MILLER_SKIN,
     SKINS,
-    Skin,
     colour,
     history,
     single_doses,
@@ -23,6 +22,7 @@ from examples.figures.tans import (
 from hylios.adding import spectrum
 from hylios.colour import difference, lab
 from hylios.pictures import write_figure
+from hylios.skin import Skin
 from hylios.specimen import tanned
 from hylios.tanning import TanningHistory
 

@@ -5,21 +5,15 @@ so in the pictures and the report.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from hylios.adding import spectrum
 from hylios.quadrature import skin_quadrature
-from hylios.specimen import SPECIMENS, Specimen, parameters, tanned
-from hylios.tanning import (
-    PIGMENTATIONS,
-    Exposures,
-    TanningHistory,
-    minimal_erythema_dose,
-    minimal_melanogenesis_dose,
-    simulate,
-)
+from hylios.skin import Skin, skin
+from hylios.specimen import SPECIMENS, Specimen, parameters
+from hylios.tanning import Exposures, TanningHistory, simulate
 
 Schedule = Sequence[tuple[float, float]]
 """Doses as (day, SED)."""
@@ -57,24 +51,6 @@ SCHEDULES = {name: evenly(*doses) for name, doses in MILLER_DOSES.items()}
 """The three schedules of figure 6.23. ASSUMED: equal doses."""
 
 
-@dataclass(frozen=True)
-class Skin:
-    """A specimen of the light model joined with a tanning set and its minimal doses in SED."""
-
-    specimen: Specimen
-    pigmentation: str
-    mmd: float
-    med: float
-
-
-def by_pigmentation(specimen: Specimen, pigmentation: str) -> Skin:
-    """A skin with the minimal doses of its melanin (3.1, 3.2)."""
-    level = specimen.pigmentation
-    return Skin(
-        specimen, pigmentation, minimal_melanogenesis_dose(level), minimal_erythema_dose(level)
-    )
-
-
 def between() -> Specimen:
     """A specimen whose every number is the geometric mean of S3's and S4's."""
     light, dark = SPECIMENS["S3"], SPECIMENS["S4"]
@@ -85,13 +61,13 @@ def between() -> Specimen:
     return replace(light, name="between S3 and S4", **mean)
 
 
-MILLER_SKIN = Skin(SPECIMENS["S3"], "low", mmd=2.89, med=1.7)
+MILLER_SKIN = skin(SPECIMENS["S3"], "low", mmd=2.89, med=1.7)
 """Minimal doses as section 6.2.2 prints them. ASSUMED: S3 stands for the low level."""
 
 SKINS = {
-    "low": by_pigmentation(SPECIMENS["S3"], "low"),
-    "intermediate": by_pigmentation(between(), "intermediate"),
-    "high": by_pigmentation(SPECIMENS["S4"], "high"),
+    "low": skin(SPECIMENS["S3"], "low"),
+    "intermediate": skin(between(), "intermediate"),
+    "high": skin(SPECIMENS["S4"], "high"),
 }
 """S3, S4 and one between, for the intermediate set. ASSUMED: the thesis names no such specimen."""
 
@@ -99,29 +75,31 @@ COLOUR_WAVELENGTHS = 8
 """At which the light model is asked for a colour: within .03 in L* of a spectrum every 10 nm."""
 
 
-def history(skin: Skin, schedule: Schedule, days: float) -> TanningHistory:
+def history(made_for: Skin, schedule: Schedule, days: float) -> TanningHistory:
     """The skin's state after a schedule, every hour up to a day."""
     hours = np.array([round(24 * day) for day, _ in schedule])
-    return _simulated(skin, Exposures(hours, np.array([dose for _, dose in schedule])), days)
+    return _simulated(made_for, Exposures(hours, np.array([dose for _, dose in schedule])), days)
 
 
-def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHistory:
+def single_doses(made_for: Skin, doses: Sequence[float], days: float) -> TanningHistory:
     """States after one dose on day 0, for each of some doses in SED; shapes (D, T, ...)."""
-    return _simulated(skin, Exposures(np.array([0]), np.array(doses, dtype=float)[:, None]), days)
+    return _simulated(
+        made_for, Exposures(np.array([0]), np.array(doses, dtype=float)[:, None]), days
+    )
 
 
-def _simulated(skin: Skin, exposures: Exposures, days: float) -> TanningHistory:
+def _simulated(made_for: Skin, exposures: Exposures, days: float) -> TanningHistory:
     return simulate(
         exposures,
-        PIGMENTATIONS[skin.pigmentation],
-        mmd=skin.mmd,
-        med=skin.med,
+        made_for.dynamics,
+        mmd=made_for.mmd,
+        med=made_for.med,
         hours=round(24 * days),
     )
 
 
-def colour(skin: Skin, melanin: np.ndarray, thickness: float) -> np.ndarray:
+def colour(made_for: Skin, melanin: np.ndarray, thickness: float) -> np.ndarray:
     """Linear Rec.709 (3,) under D65 of the skin in a tanning state, without noise, at 8 degrees."""
     quadrature = skin_quadrature(COLOUR_WAVELENGTHS)
-    found = spectrum(tanned(skin.specimen, melanin, thickness), quadrature.wavelengths)
+    found = spectrum(made_for.tanned(melanin, thickness), quadrature.wavelengths)
     return quadrature.weights @ found.total

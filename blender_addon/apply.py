@@ -3,6 +3,7 @@
 import bpy
 
 from hylios.errors import InputError
+from hylios.table import read_table
 
 from . import doses, images, nodes, tables, timeline
 from .tan import check_days, tan
@@ -26,7 +27,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     _check_mask(obj, settings.mask_attribute)
     check_days(settings.first_day, settings.last_day)
     timeline.check_frames(settings.first_frame, settings.last_frame)
-    table = tables.load(tables.table_path(settings.skin, settings.table_path))
+    table = read_table(tables.table_path(settings.skin, settings.table_path))
     minimal = minimal_doses(settings, table.provenance)
     result = tan(
         table,

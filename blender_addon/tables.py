@@ -1,17 +1,13 @@
 """Skin tables: those that come with the add-on, and any file of the user's."""
 
 import functools
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
-import numpy as np
 
 from hylios.errors import InputError
-from hylios.table import SkinTable, from_pixels, header_text
-
-from .images import set_colour_space
+from hylios.table import read_table
 
 FOLDER = Path(__file__).parent / "tables"
 TYPES = ("I", "II", "III", "IV", "V", "VI")
@@ -77,7 +73,7 @@ def table_path(skin: str, chosen: str) -> Path:
 
 
 def provenance(path: Path) -> dict:
-    """What made a table, by its header alone; read again only when the file has changed.
+    """What made a table; read again only when the file has changed.
 
     Raises
     ------
@@ -93,13 +89,7 @@ def provenance(path: Path) -> dict:
 
 @functools.lru_cache(maxsize=16)
 def _provenance(path: Path, modified: int) -> dict:
-    try:
-        described = json.loads(header_text(path))["provenance"]
-    except (json.JSONDecodeError, KeyError, TypeError) as error:
-        raise InputError(f"{path} says nothing about what made it.") from error
-    if not isinstance(described, dict):
-        raise InputError(f"{path} says nothing about what made it.")
-    return described
+    return read_table(path).provenance
 
 
 def minimal_doses(described: dict) -> MinimalDoses:
@@ -114,33 +104,6 @@ def minimal_doses(described: dict) -> MinimalDoses:
         return MinimalDoses(mmd=float(described["mmd_sed"]), med=float(described["med_sed"]))
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"the table has no usable minimal dose: {error!r}.") from error
-
-
-def load(path: Path) -> SkinTable:
-    """Load a table; its pixels come through Blender's own image loader, bit-exactly.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not a table.
-    """
-    header = header_text(path)
-    try:
-        image = bpy.data.images.load(str(path), check_existing=False)
-    except RuntimeError as error:
-        raise InputError(f"the table {path} cannot be read as an image.") from error
-    try:
-        set_colour_space(image, is_colour=False)
-        width, height = image.size
-        pixels = np.empty(width * height * image.channels, dtype=np.float32)
-        if not pixels.size:
-            raise InputError(f"the table {path} cannot be read as an image.")
-        image.pixels.foreach_get(pixels)
-        # Blender's first row is the bottom one, a table's the top one.
-        rows = pixels.reshape(height, width, image.channels)[::-1, :, :3]
-        return from_pixels(rows, header)
-    finally:
-        bpy.data.images.remove(image)
 
 
 SHIPPED = shipped_tables()

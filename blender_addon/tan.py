@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.table import PLANES, SkinTable, melanin_dynamics
+from hylios.table import SkinTable, melanin_dynamics
 from hylios.tanning import Exposures, states_at
 from hylios.ultraviolet.exposures import Doses
 
@@ -75,10 +75,11 @@ def tan(
         mmd=mmd,
         med=med,
     )
-    appearance = table.lookup(np.moveaxis(states, 1, 0)).astype(np.float32)
+    planes = ("subsurface_colour", "profile_width")
+    appearance = table.lookup(np.moveaxis(states, 1, 0), planes)
     return Tan(
-        colour=appearance[..., PLANES.index("subsurface_colour"), :],
-        profile_width=appearance[..., PLANES.index("profile_width"), :],
+        colour=appearance["subsurface_colour"].astype(np.float32),
+        profile_width=appearance["profile_width"].astype(np.float32),
         first_day=first_day,
         last_day=last_day,
     )

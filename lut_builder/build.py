@@ -13,7 +13,7 @@ from hylios.profile import burley_width
 from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
 from hylios.spectra import Figures, estimates_within, figures
-from hylios.table import SkinTable, described_dynamics
+from hylios.table import PLANES, SkinTable, described_dynamics
 from hylios.tissue import FIGURES, readings
 from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
 from lut_builder.states import choose_axes
@@ -72,11 +72,12 @@ PRESETS = {
 
 @dataclass(frozen=True)
 class Appearance:
-    """What a spectrum looks like: `hylios.table.PLANES` and their noise.
+    """What a spectrum looks like, and its noise.
 
     Attributes
     ----------
-    values : (len(PLANES), 3) array
+    values : (4, 3) array
+        The first four of `hylios.table.PLANES`.
     colour_covariance : (3, 3) array
         Of the total colour's Monte Carlo error, linear Rec.709.
     """
@@ -167,14 +168,16 @@ def build(
         for state in states
     ]
     values = np.array([entry.values for entry in entries])
-    noise = np.mean([np.diag(entry.colour_covariance) for entry in entries], axis=0)
+    variance = np.array([np.diag(entry.colour_covariance) for entry in entries])
+    planes = dict(zip(PLANES[:4], np.moveaxis(values, 1, 0), strict=True))
+    planes["colour_error"] = np.sqrt(variance)
     cut = sum(made_for.overfull(state[:3], state[3]) for state in states)
     return SkinTable(
         axes=axes,
-        values=values.reshape(*axes.shape, *values.shape[1:]),
+        planes={name: plane.reshape(*axes.shape, -1) for name, plane in planes.items()},
         provenance={
             **_provenance(made_for, settings, seed, known, readings(chosen)),
-            "colour_standard_error": np.sqrt(noise).tolist(),
+            "colour_standard_error": np.sqrt(variance.mean(axis=0)).tolist(),
             "states_with_melanin_cut": int(cut),
         },
     )

@@ -24,7 +24,7 @@ from hylios.shell import (
     run,
 )
 from hylios.skin import UNTANNED
-from hylios.table import PLANES
+from hylios.table import read_table
 
 if TYPE_CHECKING:
     from lut_builder.build import Settings
@@ -133,8 +133,6 @@ def _build(asked: argparse.Namespace) -> None:
 
 
 def _info(asked: argparse.Namespace) -> None:
-    from lut_builder.exr import read_table
-
     table = read_table(asked.table)
     for name, value in table.provenance.items():
         if isinstance(value, dict) and value:
@@ -145,7 +143,7 @@ def _info(asked: argparse.Namespace) -> None:
             print("\n".join(f"  {line}" for line in value))
         else:
             print(f"{name}: {value}")
-    print(f"planes: {', '.join(PLANES)}")
+    print(f"planes: {', '.join(table.planes)}")
     directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
     for axis, (direction, knots) in enumerate(directions, start=1):
         print(
@@ -159,7 +157,6 @@ def _check(asked: argparse.Namespace) -> None:
     require_work(asked)
 
     from lut_builder.check import check, settings_of
-    from lut_builder.exr import read_table
 
     table = read_table(asked.table)
     settings = settings_of(table)

@@ -1,4 +1,4 @@
-"""Writing and reading a `SkinTable` as an EXR file with OpenImageIO (layout: `hylios.table`)."""
+"""Writing a `SkinTable` as an EXR file with OpenImageIO (layout: `docs/table_format.md`)."""
 
 from pathlib import Path
 
@@ -7,24 +7,33 @@ import OpenImageIO as oiio  # noqa: N813 (its own documentation calls it so)
 
 from hylios.errors import InputError
 from hylios.files import written_beside
-from hylios.table import HEADER_ATTRIBUTE, SkinTable, from_pixels, header_text, to_pixels
+from hylios.table import (
+    CHECKSUM_ATTRIBUTE,
+    HEADER_ATTRIBUTE,
+    SkinTable,
+    StoredTable,
+    read_table,
+    to_stored,
+)
 
 
-def write_table(path: Path, table: SkinTable) -> None:
+def write_table(path: Path, table: SkinTable, *, half: bool = False) -> None:
     """Write a table beside its target and move it there, so that no half file is ever seen.
+
+    Parameters
+    ----------
+    half : bool
+        Whether to store numbers of 16 bits, but in planes of counts, in place of 32.
 
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the table is none that could be read again, or the file cannot be written.
     """
-    pixels, header = to_pixels(table)
-    specification = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.FLOAT)
-    specification.attribute("compression", "zip")
-    specification.attribute("Software", table.provenance.get("software", "lut_builder"))
-    specification.attribute(HEADER_ATTRIBUTE, header)
-    # Else the hour of writing goes into the file, and equal tables are unequal files.
-    specification.attribute("DateTime", "")
+    stored = to_stored(table, half=half)
+    channels = list(stored.channels.values())
+    specification = _specification(stored, table.provenance.get("software", "lut_builder"))
+    pixels = np.stack(channels, axis=-1, dtype=np.float32)
     with written_beside(path) as beside:
         output = oiio.ImageOutput.create(str(beside))
         if output is None:
@@ -32,29 +41,30 @@ def write_table(path: Path, table: SkinTable) -> None:
         written = output.open(str(beside), specification) and output.write_image(pixels)
         if not (output.close() and written):
             raise InputError(f"the table {path} cannot be written: {output.geterror()}.")
-        _require_written(path, beside, header)
+        _require_written(path, beside, stored, half)
 
 
-def read_table(path: Path) -> SkinTable:
-    """Read a table.
+def _specification(stored: StoredTable, software: str) -> oiio.ImageSpec:
+    channels = list(stored.channels.values())
+    rows, columns = channels[0].shape
+    specification = oiio.ImageSpec(columns, rows, len(channels), oiio.FLOAT)
+    specification.channelnames = tuple(stored.channels)
+    specification.channelformats = tuple(
+        oiio.TypeHalf if each.dtype == np.float16 else oiio.TypeFloat for each in channels
+    )
+    specification.attribute("compression", "zip")
+    specification.attribute("Software", software)
+    specification.attribute(HEADER_ATTRIBUTE, stored.header)
+    specification.attribute(CHECKSUM_ATTRIBUTE, stored.checksum)
+    # Else the hour of writing goes into the file, and equal tables are unequal files.
+    specification.attribute("DateTime", "")
+    return specification
 
-    Raises
-    ------
-    InputError
-        If the file cannot be read or is not a table.
-    """
-    header = header_text(path)
-    image = oiio.ImageBuf(str(path))
-    pixels = image.get_pixels(oiio.FLOAT)
-    if image.has_error or pixels is None:
-        raise InputError(f"the table {path} cannot be read: {image.geterror()}.")
-    return from_pixels(np.asarray(pixels), header)
 
-
-def _require_written(path: Path, beside: Path, header: str) -> None:
+def _require_written(path: Path, beside: Path, stored: StoredTable, half: bool) -> None:
     """Raise InputError unless the file reads back: a full disk goes unnoticed otherwise."""
     try:
-        kept = header_text(beside) == header and read_table(beside) is not None
+        kept = to_stored(read_table(beside), half=half).checksum == stored.checksum
     except InputError:
         kept = False
     if not kept:

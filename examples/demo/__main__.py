@@ -17,7 +17,7 @@ from examples.demo import colours, interrupt, montage, render, scene
 from examples.demo.body import BodyUnavailableError, fetch_wheel
 from hylios.errors import InputError
 from hylios.shell import run
-from lut_builder.exr import read_table
+from hylios.table import read_table
 
 OUT = Path("out")
 TABLE = "table.exr"

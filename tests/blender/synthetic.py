@@ -39,7 +39,7 @@ def smooth_table(pigmentation: str = "intermediate") -> SkinTable:
         "bands_nm": [365, 1100, 1650],
         "software": "test",
     }
-    return SkinTable(axes, np.stack(list(planes.values()), axis=-2), provenance)
+    return SkinTable(axes, planes, provenance)
 
 
 def tan_object(table_path: Path, shares=None, dose: float = 30.0):

@@ -37,7 +37,7 @@ def table() -> SkinTable:
     )
     values = SKIN[0] * np.exp(-0.3 * axes.knots[0])[:, None]
     provenance = {"pigmentation": "intermediate", "mmd_sed": 2.89, "med_sed": 1.7}
-    return SkinTable(axes, np.repeat(values[:, None], 4, axis=1), provenance)
+    return SkinTable(axes, {"subsurface_colour": values}, provenance)
 
 
 def patches_of(white: Light) -> list[colours.Patch]:

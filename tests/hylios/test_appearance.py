@@ -1,6 +1,4 @@
-"""Colour, diffusion profile and table, against references and themselves."""
-
-import json
+"""Colour and diffusion profile, against references and themselves."""
 
 import numpy as np
 import pytest
@@ -8,7 +6,6 @@ import pytest
 from hylios import colour
 from hylios.errors import InputError
 from hylios.profile import burley_share_within, burley_width
-from hylios.table import PLANES, SkinTable, StateAxes, from_pixels, to_pixels
 from hylios.transport.simulate import DISTANCE_EDGES
 
 WAVELENGTHS = np.arange(400.0, 701.0, 20.0)
@@ -73,75 +70,6 @@ def test_burley_has_the_mean_distance_of_its_paper():
 def test_a_profile_without_light_is_refused(weights):
     with pytest.raises(InputError, match="a profile needs light"):
         burley_width(np.array([0.0, 0.1, 0.2, 0.3]), weights)
-
-
-@pytest.fixture
-def table():
-    random = np.random.default_rng(0)
-    basis = np.linalg.qr(random.normal(size=(4, 3)))[0]
-    knots = (np.array([-1.0, 0.0, 1.0, 2.0]), np.array([0.0, 1.0]), np.array([-1.0, 0.0, 0.5]))
-    axes = StateAxes(np.array([0.5, 0.3, 0.2, 1.0]), basis, knots)
-    values = random.random((*axes.shape, len(PLANES), 3)).astype(np.float32).astype(float)
-    return SkinTable(axes, values, {"specimen": "S3", "rays": 7})
-
-
-def test_table_gives_its_values_at_the_knots(table):
-    states = table.axes.knot_states()
-    assert np.allclose(table.lookup(states), table.values, atol=1e-12)
-    assert np.allclose(table.plane("profile_width", states), table.values[..., 3, :], atol=1e-12)
-
-
-def test_table_is_linear_between_knots_and_held_beyond_them(table):
-    inside = table.lookup(table.axes.states(np.array([0.5, 0.0, 0.0])))
-    assert np.allclose(inside, 0.5 * (table.values[1, 0, 1] + table.values[2, 0, 1]))
-    beyond = table.lookup(table.axes.states(np.array([9.0, 0.0, -9.0])))
-    assert np.allclose(beyond, table.values[3, 0, 0])
-
-
-def test_table_survives_its_pixels(table):
-    again = from_pixels(*to_pixels(table))
-    assert np.array_equal(again.values, table.values)
-    assert again.provenance == table.provenance
-    assert np.array_equal(again.axes.basis, table.axes.basis)
-
-
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        (lambda header: header.pop("checksum"), "incomplete"),
-        (lambda header: header.update(format="other"), "not a skin tan table"),
-        (lambda header: header.update(format_version=99), "format version 99"),
-        (lambda header: header.update(planes=["x"]), "planes are"),
-        (lambda header: header["axes"]["knots"].append([0.0]), "axes are not"),
-        (lambda header: header["axes"]["knots"][0].reverse(), "axes are not"),
-        (lambda header: header["axes"]["knots"][0].pop(), "its header describes"),
-        (lambda header: header["axes"]["untanned"].pop(), "axes are not"),
-        (lambda header: header.update(checksum="0"), "does not match the checksum"),
-        (lambda header: header["provenance"].update(rays=8), "does not match the checksum"),
-        (lambda header: header["axes"]["untanned"].reverse(), "does not match the checksum"),
-    ],
-)
-def test_a_header_that_does_not_fit_is_refused(table, change, sentence):
-    pixels, text = to_pixels(table)
-    header = json.loads(text)
-    change(header)
-    with pytest.raises(InputError, match=sentence):
-        from_pixels(pixels, json.dumps(header))
-
-
-def test_changed_pixels_are_refused(table):
-    pixels, text = to_pixels(table)
-    pixels[2, 1, 0] += 1e-3
-    with pytest.raises(InputError, match="checksum"):
-        from_pixels(pixels, text)
-    with pytest.raises(InputError, match="not JSON"):
-        from_pixels(pixels, "{")
-
-
-@pytest.mark.parametrize("melanin", [0.0, -1.0, np.nan, np.inf])
-def test_a_state_that_is_none_is_refused(table, melanin):
-    with pytest.raises(InputError, match="not above 0 and finite"):
-        table.lookup(np.array([melanin, 0.3, 0.2, 1.0]))
 
 
 @pytest.mark.parametrize("wavelengths", [[700.0, 400.0], [400.0, 400.0], [400.0, np.nan], []])

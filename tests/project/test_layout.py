@@ -16,6 +16,7 @@ ALLOWED = {
     "hylios/predecessors": {"numpy", "numba", "scipy"},
     "hylios/pictures.py": {"numpy", "matplotlib"},
     "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
+    "hylios/table": {"numpy"},
     "hylios/transport": {"numpy", "numba"},
     "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},

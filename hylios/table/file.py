@@ -1,0 +1,57 @@
+"""Reading a table's file."""
+
+import os
+from pathlib import Path
+
+from hylios.errors import InputError
+from hylios.table.exr import Picture, parse
+from hylios.table.layout import (
+    CHECKSUM_ATTRIBUTE,
+    FORMAT,
+    HEADER_ATTRIBUTE,
+    StoredTable,
+    from_stored,
+)
+from hylios.table.table import SkinTable
+
+LARGEST_FILE = 64 * 2**20
+"""Bytes; the largest tables have a hundredth."""
+
+
+def read_table(path: Path) -> SkinTable:
+    """Read a table's EXR file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is no table, or is cut short or damaged in any way.
+    """
+    data = _bytes(path)
+    try:
+        return from_stored(_stored(parse(data)))
+    except InputError as error:
+        raise InputError(f"the table {path} cannot be used: {error}") from error
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        if path.exists() and not path.is_file():
+            # Some, such as pipes, would never end.
+            raise InputError(f"the table {path} cannot be read: it is no file.")
+        with path.open("rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            if size > LARGEST_FILE:
+                raise InputError(f"the table {path} is larger than {LARGEST_FILE // 2**20} MiB.")
+            return file.read(size)
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
+
+
+def _stored(picture: Picture) -> StoredTable:
+    if HEADER_ATTRIBUTE not in picture.attributes:
+        raise InputError(f"it is an OpenEXR file but not a {FORMAT}.")
+    text, checksum = (
+        picture.attributes.get(name, b"").decode("utf-8", errors="replace")
+        for name in (HEADER_ATTRIBUTE, CHECKSUM_ATTRIBUTE)
+    )
+    return StoredTable(picture.channels, text, checksum)

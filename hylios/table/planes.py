@@ -1,0 +1,79 @@
+"""What the planes of a table mean."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from hylios.errors import InputError
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """Meaning of a plane.
+
+    Attributes
+    ----------
+    says : str
+        What its numbers are.
+    unit : str
+    components : tuple of str
+        Names of the numbers of a state; none where there is one to each wavelength in
+        `bands_nm` of the table's provenance.
+    fits_half : bool
+        Whether numbers of 16 bits can hold it.
+    """
+
+    says: str
+    unit: str
+    components: tuple[str, ...] = ("R", "G", "B")
+    fits_half: bool = True
+
+
+MEANINGS = {
+    "subsurface_colour": Meaning(
+        "light that has been inside the skin: the albedo of a shader", "linear Rec.709, D65"
+    ),
+    "total_colour": Meaning(
+        "the same with the light that the surface reflects: what a measurement sees",
+        "linear Rec.709, D65",
+    ),
+    "band_reflectance": Meaning(
+        "total reflectance at a wavelength", "share of the incident light", components=()
+    ),
+    "profile_width": Meaning("width d of Burley's diffusion profile", "mm"),
+    "colour_error": Meaning("estimated standard error of total_colour", "linear Rec.709, D65"),
+    "profile_error": Meaning(
+        "estimated standard error of the share of light that leaves within a distance, at the "
+        "distance where it is largest",
+        "share of the light that leaves",
+    ),
+    "profile_effective_samples": Meaning(
+        "number of rays of equal weight that would give as good a profile",
+        "rays",
+        fits_half=False,
+    ),
+}
+PLANES = tuple(MEANINGS)
+"""Names of the planes that have a meaning; a table has the required ones and any of the others."""
+
+REQUIRED_PLANES = ("subsurface_colour", "total_colour", "profile_width")
+
+
+def component_names(plane: str, provenance: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of the numbers that a plane has to a state.
+
+    Raises
+    ------
+    InputError
+        If the provenance lacks the wavelengths of a plane that has one number to each.
+    """
+    if MEANINGS[plane].components:
+        return MEANINGS[plane].components
+    try:
+        # A dot would part a channel's name anew.
+        names = tuple(f"{float(band):g}nm".replace(".", "_") for band in provenance["bands_nm"])
+    except (KeyError, OverflowError, TypeError, ValueError) as error:
+        raise InputError(f"the plane {plane} needs wavelengths bands_nm: {error!r}.") from error
+    if not names or len(set(names)) < len(names):
+        raise InputError(f"the plane {plane} needs wavelengths bands_nm that differ.")
+    return names

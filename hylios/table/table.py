@@ -1,0 +1,64 @@
+"""A skin's appearance over its tanning states."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hylios.errors import InputError
+from hylios.table.axes import StateAxes
+from hylios.table.interpolation import interpolate
+
+
+@dataclass(frozen=True)
+class SkinTable:
+    """A skin's appearance at the knots of its tanning states.
+
+    Attributes
+    ----------
+    axes : StateAxes
+    planes : mapping of names to (*axes.shape, components) arrays
+        All of `REQUIRED_PLANES` and any others of `PLANES`; `docs/table_format.md` says what
+        each holds.
+    provenance : dict
+        What made the table: specimen, pigmentation, wavelengths, rays, seed, errors, version.
+    interpolation : str
+        How the table is to be read between its knots, one of `INTERPOLATIONS`.
+    """
+
+    axes: StateAxes
+    planes: Mapping[str, np.ndarray]
+    provenance: dict[str, Any]
+    interpolation: str = "linear"
+
+    def lookup(
+        self, states: np.ndarray, names: Sequence[str] | None = None
+    ) -> dict[str, np.ndarray]:
+        """Planes by name, each (..., components), at tanning states (..., 4).
+
+        All planes, unless some are named. Beyond the outermost knots their value is held.
+
+        Raises
+        ------
+        InputError
+            If a state has a number that is not above 0, or if the table has no such plane.
+        """
+        asked = tuple(self.planes if names is None else names)
+        for name in asked:
+            if name not in self.planes:
+                raise InputError(f"the table has no plane {name}; it has {', '.join(self.planes)}.")
+        coordinates = self.axes.coordinates(states)
+        joined = np.concatenate([self.planes[name] for name in asked], axis=-1)
+        found = interpolate(
+            self.interpolation,
+            self.axes.knots,
+            joined,
+            coordinates.reshape(-1, coordinates.shape[-1]),
+        ).reshape(*coordinates.shape[:-1], -1)
+        ends = np.cumsum([self.planes[name].shape[-1] for name in asked])
+        return dict(zip(asked, np.split(found, ends[:-1], axis=-1), strict=True))
+
+    def plane(self, name: str, states: np.ndarray) -> np.ndarray:
+        """One plane at tanning states (..., 4), shape (..., components)."""
+        return self.lookup(states, (name,))[name]

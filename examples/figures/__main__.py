@@ -19,6 +19,7 @@ from examples.figures import (
     melanin_forms,
     people,
     predecessors,
+    renders,
     report,
     sensitivity,
 )
@@ -37,6 +38,7 @@ GROUPS = (
     sensitivity,
     compression,
     people,
+    renders,
 )
 """Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
 

@@ -6,6 +6,7 @@ Blender runs in a process of its own (`scenes`); `shots` says what it renders.
 import subprocess
 import sys
 import tempfile
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
@@ -37,8 +38,11 @@ FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 SETTINGS = Settings(knots=(9, 2, 1), visible=visible_wavelengths(25.0), rays=12_500)
 """Of the tables: the small preset with a quarter of its rays."""
 
+NEAR = 2.0
+"""How near in L* a render is to come to its table; what the shader's surface keeps out is 1."""
+
 UV_NM, UV_RAYS = 365.0, 100_000
-UV_EXPOSURE = 2.5
+UV_EXPOSURE = 1.7
 """How much brighter than the visible pictures those at 365 nm are shown."""
 
 
@@ -138,24 +142,28 @@ def rendered(
 ) -> list[Result]:
     """Build the tables that shots need in a folder, render there, and read what came of it."""
     skins = {**shots.skins(), UV: shots.skins()["low"]}
-    tables: dict[str, SkinTable] = {}
-    for name in sorted({shot.table for shot in wanted}):
-        tables[name] = table_of(name, skins[name], effort, tick)
-        write_table(folder / f"{name}.exr", tables[name])
+    tables = {name: table_of(skins[name], effort, tick) for name in _colour_tables(wanted)}
+    if any(shot.table == UV for shot in wanted):
+        tables[UV] = uv_table(tables["low"], skins[UV], effort)
+    for name, table in tables.items():
+        write_table(folder / f"{name}.exr", table)
     run_blender(wanted, folder, options, tick)
     return [result(shot, skins[shot.table], tables[shot.table], folder) for shot in wanted]
 
 
-def table_of(name: str, made_for: Skin, effort: Effort, tick: Tick) -> SkinTable:
-    """The table of a skin, or at 365 nm where the name says so."""
-    found = build(
+def _colour_tables(wanted: Sequence[Shot]) -> list[str]:
+    return sorted({"low" if shot.table == UV else shot.table for shot in wanted})
+
+
+def table_of(made_for: Skin, effort: Effort, tick: Tick) -> SkinTable:
+    """The table of a skin."""
+    return build(
         made_for,
         SETTINGS,
         seed=effort.seed,
         threads=effort.threads,
         progress=lambda rays: tick(rays / RAYS_AS_LONG),
     )
-    return uv_table(found, made_for, effort) if name == UV else found
 
 
 def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], tick: Tick) -> None:
@@ -222,6 +230,11 @@ def colour(made_for: Skin, state: np.ndarray) -> np.ndarray:
 # ---------------------------------------------------------------- figures
 
 
+def _totals(schedules: Sequence[Schedule]) -> str:
+    totals = [f"{sum(dose for _, dose in schedule):.3g}" for schedule in schedules]
+    return f"{', '.join(totals[:-1])} and {totals[-1]}" if len(totals) > 1 else totals[0]
+
+
 def draw(results: Mapping[str, Sequence[Result]], folder: Path) -> list[report.Row]:
     """Draw the figures; returns what they say."""
     found = {each.shot.name: each for each in results["renders"]}
@@ -234,11 +247,21 @@ def draw(results: Mapping[str, Sequence[Result]], folder: Path) -> list[report.R
         FIGURES, (schedules, plain, matched, strong, face, month), strict=True
     ):
         panels, more = drawn(by_figure[figure])
-        sheet(panels, folder / f"{figure}.png")
+        sheet(HEADINGS[figure], panels, folder / f"{figure}.png")
         rows += more
+    rows.append(mild_beside_strong(by_figure["6.27"], by_figure["6.28"]))
     return sorted(rows, key=lambda row: FIGURES.index(row.where))
 
 
+HEADINGS = {
+    "6.24": f"Patches of skin of low pigmentation (MMD {shots.MMD} SED). From the upper: "
+    f"{_totals(shots.SCHEDULES)} SED in equal doses twice a week from day 0 on (assumed)",
+    "6.25": "The same doses on three skins, day 20",
+    "6.26": "Doses scaled by 1, 1.4 and 2.4, day 20",
+    "6.27": "30 SED on day 0 beside sunscreen; low pigmentation, high tanning ability",
+    "6.28": "30 SED on day 0 on one half of a face; low pigmentation, mild tanning ability",
+    "6.29": "30 SED on day 0 beside a swimsuit; intermediate tanning set, day by day",
+}
 Rows = list[report.Row]
 Panels = list[list["Panel"]]
 
@@ -267,6 +290,8 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
                 f"{np.nanmin(off):+.2f} to {np.nanmax(off):+.2f}; table from the light model "
                 f"without noise: CIEDE2000 up to {apart.max():.2f}",
                 f"{SETTINGS.rays:,} rays",
+                f"within {NEAR:g}",
+                bool(np.nanmax(np.abs(off)) <= NEAR),
             )
         )
         others = sorted({each.subject for each in results if each.subject == "Suzanne"})
@@ -314,12 +339,25 @@ def plain(results: Sequence[Result]) -> tuple[Panels, Rows]:
     )
     return panels, [
         report.claim(
-            "6.25", "the darker the skin, the less it tans of the same doses, in every patch",
-            "so it is", _contrasts(contrasts), less,
+            "6.25",
+            "the darker the skin, the less it tans of the same doses, in every patch",
+            "so it is",
+            _contrasts(contrasts),
+            less,
         ),
         report.claim(
-            "6.25", "weakest schedule on the darkest skin: no noticeable change",
-            "not noticeable (here: CIEDE2000 below 1)", f"{weakest:.2f}", bool(weakest < 1.0),
+            "6.25",
+            "weakest schedule on the darkest skin: no noticeable change",
+            "not noticeable (here: CIEDE2000 below 1)",
+            f"{weakest:.2f}",
+            bool(weakest < 1.0),
+        ),
+        report.claim(
+            "6.25",
+            "the other schedules on the darkest skin (implied)",
+            "noticeable",
+            " and ".join(f"{value:.2f}" for value in contrasts["high"][1:]),
+            bool(np.all(contrasts["high"][1:] >= 1.0)),
         ),
     ]
 
@@ -333,8 +371,11 @@ def matched(results: Sequence[Result]) -> tuple[Panels, Rows]:
     )
     return panels, [
         report.claim(
-            "6.26", "the darker the skin, the more noticeable the change, in every patch",
-            "so it is", _contrasts(contrasts), more,
+            "6.26",
+            "the darker the skin, the more noticeable the change, in every patch",
+            "so it is",
+            _contrasts(contrasts),
+            more,
         )
     ]
 
@@ -343,8 +384,7 @@ def _three_skins(results: Sequence[Result]) -> tuple[Panels, dict[str, np.ndarra
     panels = []
     for each in results:
         name = each.shot.table
-        doses = ", ".join(f"{schedule[0][1]:g}" for schedule in each.shot.schedules)
-        caption = f"{name} pigmentation\ntwelve times {doses} SED, day {each.shot.day:g}"
+        caption = f"{name} pigmentation\n{_totals(each.shot.schedules)} SED in all"
         panels.append(Panel(each.picture, caption))
     return [panels], {each.shot.table: each.contrast for each in results}
 
@@ -359,15 +399,19 @@ def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
 
 def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.27."""
-    panels = [Panel(each.picture, f"day {each.shot.day:g}") for each in results]
+    said = {0: "day 0, sunscreen on", 4: "day 4", 15: "day 15"}
+    panels = [Panel(each.picture, said[each.shot.day]) for each in results]
     contrasts = {each.shot.day: float(each.contrast[0]) for each in results}
     return [panels], [
         report.claim(
-            "6.27", "noticeably darker on day 4, significantly on day 15",
+            "6.27",
+            "noticeably darker on day 4, significantly on day 15",
             "so it is",
-            ", ".join(f"day {day:g}: L* {each.lightness[0]:.1f}, CIEDE2000 {contrasts[day]:.1f} "
-                      "from under the sunscreen"
-                      for day, each in zip(contrasts, results, strict=True)),
+            ", ".join(
+                f"day {day:g}: L* {each.lightness[0]:.1f}, CIEDE2000 {contrasts[day]:.1f} "
+                "from under the sunscreen"
+                for day, each in zip(contrasts, results, strict=True)
+            ),
             bool(1.0 < contrasts[4] < contrasts[15]),
         ),
         _filling(),
@@ -380,7 +424,9 @@ def _filling() -> report.Row:
     over = history(made_for, shots.BEACH, shots.LAST_DAY)
     cut = any(overfull(made_for.specimen, state[:3], state[3]) for state in over.states)
     return report.Row(
-        "6.27", "most melanin, as a multiple of the untanned skin's", "",
+        "6.27",
+        "most melanin, as a multiple of the untanned skin's",
+        "",
         f"{over.total.max():.2f}; " + ("cut to fill a layer" if cut else "it fits every layer"),
     )
 
@@ -402,16 +448,35 @@ def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
     visible, at_365 = (_luminance(found[after].readings) for found in (seen, uv))
     return panels, [
         report.claim(
-            "6.28", "the side under sunscreen is glossier", "so drawn",
+            "6.28",
+            "the side under sunscreen is glossier",
+            "so drawn",
             f"the surface reflects up to {covered:.2f} there, {bare:.2f} beside",
             bool(covered > bare),
         ),
         report.Row(
-            "6.28", f"light out of tanned over covered skin on day {after}", "",
+            "6.28",
+            f"light out of tanned over covered skin on day {after}",
+            "",
             f"{visible[0] / visible[1]:.2f} (visible, luminance), {at_365[0] / at_365[1]:.2f} "
             f"(365 nm); CIEDE2000 {seen[after].contrast[0]:.1f} in the visible",
         ),
     ]
+
+
+def mild_beside_strong(back: Sequence[Result], faces: Sequence[Result]) -> report.Row:
+    """Figures 6.27 and 6.28 on day 15."""
+    high, mild = (
+        next(each.contrast[0] for each in results if each.shot.day == 15 and each.shot.table != UV)
+        for results in (back, faces)
+    )
+    return report.claim(
+        "6.28",
+        "tan line on day 15 fainter than with high tanning ability (6.27)",
+        "so it is",
+        f"CIEDE2000 {mild:.1f} and {high:.1f}",
+        bool(mild < high),
+    )
 
 
 def pseudo_colour(picture: np.ndarray) -> np.ndarray:
@@ -427,7 +492,7 @@ def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.29."""
     daily = [each for each in results if "small" in each.shot.name]
     main = [each for each in results if "small" not in each.shot.name]
-    small = [Panel(each.picture, f"{each.shot.day:g}") for each in daily]
+    small = [Panel(each.picture, f"day {each.shot.day:g}") for each in daily]
     weeks = [small[start : start + 10] for start in range(0, len(small), 10)]
     lightness = np.array([each.lightness[0] for each in daily])
     days = np.array([each.shot.day for each in daily])
@@ -440,12 +505,17 @@ def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
             "6.29", "day of the darkest skin", "10", f"{peak:g}", bool(8.0 <= peak <= 12.0)
         ),
         report.claim(
-            "6.29", "rapid rise, broad maximum, gradual fading", "so it is",
+            "6.29",
+            "rapid rise, broad maximum, gradual fading",
+            "so it is",
             f"half of the largest change in L* ({untanned - darkest:.1f}) by day "
             f"{days[np.argmax(change > 0.5)]:g}; nine tenths from day {broad[0]:g} to "
             f"{broad[-1]:g}; on day {days[-1]:g} {change[-1]:.0%} are left",
-            bool(broad[0] < broad[-1] - broad[0] and broad[0] < days[-1] - broad[-1]
-                 and change[-1] < 0.75),
+            bool(
+                broad[0] < broad[-1] - broad[0]
+                and broad[0] < days[-1] - broad[-1]
+                and change[-1] < 0.75
+            ),
         ),
     ]
 
@@ -453,22 +523,22 @@ def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
 # ---------------------------------------------------------------- sheets
 
 DOTS_PER_INCH = 100
-GAP, LINE = 8, 19
-"""Pixels between pictures, and of a line of a caption."""
+GAP, LINE, LETTER = 8, 19, 8
+"""Pixels between pictures, of a line of a caption, and of a heading's letter."""
 
 
-def sheet(panels: Panels, path: Path) -> None:
-    """Write rows of panels into a PNG file, each picture pixel by pixel."""
+def sheet(heading: str, panels: Panels, path: Path) -> None:
+    """Write rows of panels under a heading into a PNG file, each picture pixel by pixel."""
     heights = [
         max(panel.picture.shape[0] + GAP + LINE * (panel.caption.count("\n") + 1) for panel in row)
         for row in panels
     ]
     widths = [sum(panel.picture.shape[1] + GAP for panel in row) + GAP for row in panels]
-    width, height = max(widths), sum(heights) + GAP * (len(panels) + 1)
-    figure = Figure(
-        figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=DOTS_PER_INCH
-    )
-    top = GAP
+    width, height = max(widths), sum(heights) + GAP * (len(panels) + 1) + 2 * LINE
+    figure = Figure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH), dpi=DOTS_PER_INCH)
+    lines = textwrap.fill(heading, width // LETTER)
+    figure.text(0.5, 1.0 - GAP / height, lines, ha="center", va="top", fontsize=10)
+    top = GAP + LINE * (lines.count("\n") + 2) - LINE // 2
     for row, tall, wide in zip(panels, heights, widths, strict=True):
         left = (width - wide) // 2 + GAP
         for panel in row:
@@ -491,6 +561,10 @@ def _put(figure: Figure, panel: Panel, left: int, top: int, width: int, height: 
             Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor="white", linewidth=1.0)
         )
     figure.text(
-        (left + columns / 2) / width, (bottom - GAP / 2) / height, panel.caption,
-        ha="center", va="top", fontsize=9,
+        (left + columns / 2) / width,
+        (bottom - GAP / 2) / height,
+        panel.caption,
+        ha="center",
+        va="top",
+        fontsize=9,
     )

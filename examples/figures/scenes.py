@@ -25,7 +25,7 @@ from hylios.colour import srgb
 from hylios.shell import run
 
 FRAMES_PER_DAY = 4
-SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.22, 0.8
+SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.30, 0.65
 SKIN_ROUGHNESS, SKIN_SPECULAR = 0.45, 0.5
 CLEAR_OF_EDGE = 0.008
 """Metres from the edge of a patch from which on its colour is read."""
@@ -40,6 +40,11 @@ EVEN = (
     scene.Lamp("Right", -38.0, 0.40, 1.1, 0.95),
 )
 RAKING = (scene.Lamp("Key", 40.0, 0.45, 1.3, 1.35), scene.Lamp("Rim", -80.0, 0.35, 1.0, 0.55))
+SHEEN = (
+    scene.Lamp("Key", 25.0, 0.45, 1.6, 1.1),
+    scene.Lamp("Sheen", -6.0, 0.30, 0.9, 0.5),
+    scene.Lamp("Rim", -80.0, 0.35, 1.0, 0.5),
+)
 
 
 @dataclass(frozen=True)
@@ -136,9 +141,7 @@ def sunscreen_at(place: Place) -> swimsuit.Field:
     """Sun everywhere but on a sun painted with sunscreen."""
 
     def field(points: np.ndarray) -> np.ndarray:
-        return np.maximum(
-            place.scale * sun_sign(*place.local(points)), -place.on_this_side(points)
-        )
+        return np.maximum(place.scale * sun_sign(*place.local(points)), -place.on_this_side(points))
 
     return field
 
@@ -175,19 +178,36 @@ def _with_body(wheel: Path) -> dict[str, Stage]:
     return {
         "patches": Stage(
             subject("Back", body, patches_at(squares), (0.0, 0.0, 1.19), 0.46, 8.0),
-            RAKING, part, 3, (0.055, 0.1, 1.195), 0.13,
+            RAKING,
+            part,
+            3,
+            (0.055, 0.1, 1.195),
+            0.13,
         ),
         "sunscreen": Stage(
-            subject("Back", body, sunscreen_at(sun), (0.0, 0.0, 1.24), 0.56, 8.0),
-            RAKING, whole, 1, (0.0, 0.1, 1.215), 0.12, capped=True,
+            subject("Back", body, sunscreen_at(sun), (0.0, 0.0, 1.19), 0.46, 8.0),
+            SHEEN,
+            whole,
+            1,
+            (0.0, 0.1, 1.215),
+            0.12,
         ),
         "face": Stage(
             subject("Face", resting, half, (0.0, -0.02, 1.505), 0.30, 180.0),
-            EVEN, whole, 1, (0.0, -0.1, 1.48), 0.075, capped=True,
+            EVEN,
+            whole,
+            1,
+            (0.0, -0.1, 1.48),
+            0.075,
+            capped=True,
         ),
         "swimmer": Stage(
             replace(scene.swimmer(wheel), target=(0.0, 0.0, 1.21), height=0.60),
-            scene.LAMPS, whole, 1, (0.0, 0.1, 1.03), 0.15,
+            scene.LAMPS,
+            whole,
+            1,
+            (0.0, 0.1, 1.03),
+            0.15,
         ),
     }
 
@@ -259,7 +279,8 @@ def swim_cap(body: bpy.types.Mesh) -> None:
 
 def _cap_material() -> bpy.types.Material:
     material = bpy.data.materials.new("Cap")
-    material.use_nodes = True
+    if material.node_tree is None:
+        material.use_nodes = True  # Blender 4.5
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = CAP_COLOUR
     shader.inputs["Roughness"].default_value = 0.35
@@ -384,25 +405,24 @@ def shoot(
 ) -> Iterator[str]:
     """Render shots into FOLDER/NAME.npz, and give each name once its file is there."""
     scratch = folder / "scratch.exr"
-    standing, applied, obj = None, None, None
+    standing, obj = None, None
     whites: dict[tuple, render.Light] = {}
     for shot in wanted:
         stage = found[shot.stage]
-        quality = render.Quality(samples, max(1, round(scale * shot.percent)))
-        if standing != shot.stage:
-            obj, standing, applied = built(stage), shot.stage, None
-        if applied != (shot.table, shot.schedules):
+        quality = render.Quality(samples, max(1, round(scale * shot.percent)), "HIGH")
+        if standing != (shot.stage, shot.table, shot.schedules):
+            # A new scene even for a new tan only: with persistent data Cycles may render a former
+            # image in place of the one that has replaced it.
+            obj = built(stage)
             tan(obj, folder / f"{shot.table}.exr", shot.schedules)
-            applied = (shot.table, shot.schedules)
+            standing = (shot.stage, shot.table, shot.schedules)
         for slot in obj.material_slots:
             set_gloss(slot.material, sunscreen=shot.gloss)
         view = (shot.stage, shot.window, shot.percent)
         if view not in whites:
             with render.white(obj):
                 frame = frame_of(shot.day)
-                whites[view] = render.light(
-                    bpy.context.scene, frame, quality, scratch, shot.window
-                )
+                whites[view] = render.light(bpy.context.scene, frame, quality, scratch, shot.window)
         taken = take(shot, quality, scratch)
         where = regions(whites[view], stage)
         np.savez(
@@ -441,7 +461,7 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="+")
     parser.add_argument("--scale", type=float, default=1.0)
-    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--samples", type=int, default=24)
     parser.add_argument("--stand-in", action="store_true")
     return parser
 

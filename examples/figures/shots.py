@@ -3,9 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from hylios.specimen import SPECIMENS, Specimen, parameters
+from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen
 from hylios.tanning import PIGMENTATIONS
 from lut_builder.states import Skin, skin
 
@@ -37,6 +35,10 @@ STRONG = "low, high tanning ability"
 STRONG_PRODUCTION = 0.0858
 """Extra production of the stratum basale in figure 6.27."""
 
+INTERMEDIATE_MELANIN = 3.0
+"""Times S3's."""
+
+
 def skins() -> dict[str, Skin]:
     """The skins of the renders; tables have their names."""
     s3, s4 = SPECIMENS["S3"], SPECIMENS["S4"]
@@ -50,16 +52,15 @@ def skins() -> dict[str, Skin]:
 
 
 def between() -> Specimen:
-    """A specimen whose every number is the geometric mean of S3's and S4's.
+    """S3 with more melanin in every layer and form, so that L* is halfway to S4's.
 
-    ASSUMED: the thesis names none for the intermediate set.
+    ASSUMED: the thesis names no specimen for the intermediate set.
     """
-    light, dark = SPECIMENS["S3"], SPECIMENS["S4"]
-    mean = {
-        each.name: float(np.sqrt(getattr(light, each.name) * getattr(dark, each.name)))
-        for each in parameters()
-    }
-    return replace(light, name="between S3 and S4", **mean)
+    s3 = SPECIMENS["S3"]
+    forms = ("melanosomes", "colloidal_melanin")
+    names = [f"{layer}_{form}" for layer in EPIDERMIS for form in forms]
+    more = {name: INTERMEDIATE_MELANIN * getattr(s3, name) for name in names}
+    return replace(s3, name="between S3 and S4", **more)
 
 
 def _less_sensitive(specimen: Specimen, pigmentation: str) -> Skin:
@@ -134,7 +135,10 @@ UV = "low 365 nm"
 
 def shots() -> list[Shot]:
     """All pictures, those of one stage and tan one after the other."""
-    wide = [Shot(f"6.24 day {day}", "patches", "low", SCHEDULES, day) for day in FIRST_AND_LAST]
+    wide = [
+        Shot(f"6.24 day {day}", "patches", "low", SCHEDULES, day, percent=52)
+        for day in FIRST_AND_LAST
+    ]
     close = [
         Shot(f"6.24 day {day}", "patches", "low", SCHEDULES, day, PATCHES, 100)
         for day in CLOSE_DAYS

@@ -82,6 +82,8 @@ class Result:
         The same by the light model without noise; None at 365 nm.
     shine : (2,) array
         Light reflected by the surface, mean of the brightest hundredth, in the sun and covered.
+    sun_distance : (rows, columns) array
+        Metres to the edge of what the sun reached, negative beyond it; not a number elsewhere.
     subject : str
         Who is in the picture.
     """
@@ -92,6 +94,7 @@ class Result:
     predicted: np.ndarray
     exact: np.ndarray | None
     shine: np.ndarray
+    sun_distance: np.ndarray
     subject: str
 
     @property
@@ -196,6 +199,7 @@ def result(shot: Shot, made_for: Skin, table: SkinTable, folder: Path) -> Result
             predicted=table.plane("subsurface_colour", states),
             exact=None if shot.table == UV else np.array([colour(made_for, s) for s in states]),
             shine=found["shine"],
+            sun_distance=found["sun_distance"],
             subject=str(found["subject"]),
         )
 
@@ -256,8 +260,8 @@ def draw(results: Mapping[str, Sequence[Result]], folder: Path) -> list[report.R
 HEADINGS = {
     "6.24": f"Patches of skin of low pigmentation (MMD {shots.MMD} SED). From the upper: "
     f"{_totals(shots.SCHEDULES)} SED in equal doses twice a week from day 0 on (assumed)",
-    "6.25": "The same doses on three skins, day 20",
-    "6.26": "Doses scaled by 1, 1.4 and 2.4, day 20",
+    "6.25": "The same doses on three skins, day 20; upper to lower patch as under the pictures",
+    "6.26": "Doses scaled by 1, 1.4 and 2.4, day 20; upper to lower patch as under the pictures",
     "6.27": "30 SED on day 0 beside sunscreen; low pigmentation, high tanning ability",
     "6.28": "30 SED on day 0 on one half of a face; low pigmentation, mild tanning ability",
     "6.29": "30 SED on day 0 beside a swimsuit; intermediate tanning set, day by day",
@@ -268,11 +272,15 @@ Panels = list[list["Panel"]]
 
 @dataclass(frozen=True)
 class Panel:
-    """A picture (rows, columns, 3), sRGB, with lines under it, and a frame drawn into it."""
+    """A picture (rows, columns, 3), sRGB, with lines under it.
+
+    Drawn into it: a frame, and a line where `outlined` (rows, columns) is 0.
+    """
 
     picture: np.ndarray
     caption: str
     marked: Window | None = None
+    outlined: np.ndarray | None = None
 
 
 def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
@@ -399,8 +407,12 @@ def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
 
 def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.27."""
-    said = {0: "day 0, sunscreen on", 4: "day 4", 15: "day 15"}
-    panels = [Panel(each.picture, said[each.shot.day]) for each in results]
+    panels = [
+        Panel(each.picture, "day 0, sunscreen on (outlined)", outlined=each.sun_distance)
+        if each.shot.gloss
+        else Panel(each.picture, f"day {each.shot.day:g}")
+        for each in results
+    ]
     contrasts = {each.shot.day: float(each.contrast[0]) for each in results}
     return [panels], [
         report.claim(
@@ -559,6 +571,15 @@ def _put(figure: Figure, panel: Panel, left: int, top: int, width: int, height: 
         x0, x1, y0, y1 = panel.marked
         axes.add_patch(
             Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor="white", linewidth=1.0)
+        )
+    if panel.outlined is not None:
+        axes.contour(
+            panel.outlined,
+            levels=[0.0],
+            colors="white",
+            linewidths=0.8,
+            extent=(0, 1, 0, 1),
+            origin="upper",
         )
     figure.text(
         (left + columns / 2) / width,

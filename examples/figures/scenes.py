@@ -40,11 +40,6 @@ EVEN = (
     scene.Lamp("Right", -38.0, 0.40, 1.1, 0.95),
 )
 RAKING = (scene.Lamp("Key", 40.0, 0.45, 1.3, 1.35), scene.Lamp("Rim", -80.0, 0.35, 1.0, 0.55))
-SHEEN = (
-    scene.Lamp("Key", 25.0, 0.45, 1.6, 1.1),
-    scene.Lamp("Sheen", -6.0, 0.30, 0.9, 0.5),
-    scene.Lamp("Rim", -80.0, 0.35, 1.0, 0.5),
-)
 
 
 @dataclass(frozen=True)
@@ -186,7 +181,7 @@ def _with_body(wheel: Path) -> dict[str, Stage]:
         ),
         "sunscreen": Stage(
             subject("Back", body, sunscreen_at(sun), (0.0, 0.0, 1.19), 0.46, 8.0),
-            SHEEN,
+            RAKING,
             whole,
             1,
             (0.0, 0.1, 1.215),
@@ -360,17 +355,27 @@ def take(shot: Shot, quality: render.Quality, scratch: Path) -> Taken:
     return Taken(combined[..., :3], render.read_light(scratch))
 
 
-def regions(white: render.Light, stage: Stage) -> list[np.ndarray]:
-    """Pixels (parts + 1, rows, columns) of each part in the sun, then of covered skin.
+def sun_distance(white: render.Light, stage: Stage) -> np.ndarray:
+    """Metres (rows, columns) to the edge of what the sun reaches, negative where it does not.
 
-    Well away from the edge between them, within the stage's reach, and well lit.
+    Not a number beyond the stage's reach.
     """
     seen = np.linalg.norm(white.normal, axis=-1) > 0.9
     seen &= np.linalg.norm(white.position - np.array(stage.centre), axis=-1) < stage.reach
     points, normals = (each[seen].astype(float) for each in (white.position, white.normal))
-    distance, part = np.zeros(seen.shape), np.zeros(seen.shape, int)
+    distance = np.full(seen.shape, np.nan)
     distance[seen] = swimsuit.distance_to_edge(stage.subject.cloth, points, normals)
-    part[seen] = stage.part(points)
+    return distance
+
+
+def regions(white: render.Light, distance: np.ndarray, stage: Stage) -> list[np.ndarray]:
+    """Pixels (parts + 1, rows, columns) of each part in the sun, then of covered skin.
+
+    Well lit, and well away from the edge between them.
+    """
+    seen = np.isfinite(distance)
+    part = np.zeros(seen.shape, int)
+    part[seen] = stage.part(white.position[seen].astype(float))
     bright = white.scattered.mean(axis=-1)
     lit = seen & (bright > 0.5 * np.median(bright[seen])) if seen.any() else seen
     sunned = [lit & (part == each) & (distance > CLEAR_OF_EDGE) for each in range(stage.parts)]
@@ -424,12 +429,14 @@ def shoot(
                 frame = frame_of(shot.day)
                 whites[view] = render.light(bpy.context.scene, frame, quality, scratch, shot.window)
         taken = take(shot, quality, scratch)
-        where = regions(whites[view], stage)
+        distance = sun_distance(whites[view], stage)
+        where = regions(whites[view], distance, stage)
         np.savez(
             folder / f"{shot.name}.npz",
             picture=srgb(taken.picture).astype(np.float32),
             readings=readings(taken.light, whites[view], where),
             shine=shine(taken, where),
+            sun_distance=distance,
             subject=stage.subject.name,
         )
         yield shot.name
@@ -461,7 +468,7 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="+")
     parser.add_argument("--scale", type=float, default=1.0)
-    parser.add_argument("--samples", type=int, default=24)
+    parser.add_argument("--samples", type=int, default=20)
     parser.add_argument("--stand-in", action="store_true")
     return parser
 

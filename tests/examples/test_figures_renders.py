@@ -34,7 +34,9 @@ def seen(name, lightness, shine=(0.3, 0.3)):
     """The result of a shot by name with the given L* of its parts and beside them."""
     (shot,) = shots.named([name])
     colour = grey(lightness)
-    return Result(shot, np.zeros((4, 3, 3)), colour, colour, colour, np.array(shine), "Back")
+    return Result(
+        shot, np.zeros((4, 3, 3)), colour, colour, colour, np.array(shine), np.ones((4, 3)), "Back"
+    )
 
 
 def test_the_figures_are_listed_without_blender():
@@ -125,7 +127,10 @@ def test_a_colour_is_read_as_a_share_of_white_away_from_the_edge():
     colours = np.where(white.position[..., :1] > 0, [0.4, 0.2, 0.1], [0.6, 0.5, 0.4])
     edge = np.abs(white.position[..., :1]) < 0.5 * scenes.CLEAR_OF_EDGE
     light = flat_light(0.8 * np.where(edge, 9.0, colours))
-    where = scenes.regions(white, half_stage((0.0, 0.0, 0.0)))
+    stage = half_stage((0.0, 0.0, 0.0))
+    distance = scenes.sun_distance(white, stage)
+    assert np.nanmax(np.abs(distance - white.position[..., 0])) < 1e-9
+    where = scenes.regions(white, distance, stage)
     found = scenes.readings(light, white, where)
     assert np.allclose(found, [[0.4, 0.2, 0.1], [0.6, 0.5, 0.4]])
     shone = scenes.shine(scenes.Taken(light.scattered + 0.25, light), where)
@@ -134,7 +139,8 @@ def test_a_colour_is_read_as_a_share_of_white_away_from_the_edge():
 
 def test_nothing_is_read_where_nothing_is_seen():
     white = flat_light(np.full((40, 40, 3), 0.8))
-    where = scenes.regions(white, half_stage((0.0, 5.0, 0.0)))
+    stage = half_stage((0.0, 5.0, 0.0))
+    where = scenes.regions(white, scenes.sun_distance(white, stage), stage)
     assert not np.any(where)
     assert np.all(np.isnan(scenes.readings(white, white, where)))
 

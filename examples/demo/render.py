@@ -79,15 +79,29 @@ def light(
     scene: bpy.types.Scene, frame: int, quality: Quality, scratch: Path, window: Window = WHOLE
 ) -> Light:
     """Render a window of a frame and return the light in it; `scratch` is a file to use."""
+    passes(scene, frame, quality, scratch, window, denoised=False)
+    return read_light(scratch)
+
+
+def passes(
+    scene: bpy.types.Scene,
+    frame: int,
+    quality: Quality,
+    path: Path,
+    window: Window,
+    *,
+    denoised: bool,
+) -> None:
+    """Render a window of a frame into a multilayer EXR file; only the picture is denoised."""
     set_file_format(scene, "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER")
-    scene.cycles.use_denoising = False
+    scene.cycles.use_denoising = denoised
+    scene.cycles.denoising_quality = quality.denoiser
     settings = scene.render
     settings.use_border = settings.use_crop_to_border = True
     settings.border_min_x, settings.border_max_x = window[:2]
     settings.border_min_y, settings.border_max_y = window[2:]
-    _render(scene, frame, quality, scratch)
+    _render(scene, frame, quality, path)
     settings.use_border = settings.use_crop_to_border = False
-    return read_light(scratch)
 
 
 @contextmanager
@@ -101,23 +115,19 @@ def white(obj: bpy.types.Object) -> Iterator[None]:
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     diffuser.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
     tree.links.new(diffuser.outputs["BSDF"], output.inputs["Surface"])
-    skin, obj.data.materials[0] = obj.data.materials[0], material
+    skins = [slot.material for slot in obj.material_slots]
+    for slot in obj.material_slots:
+        slot.material = material
     yield
-    obj.data.materials[0] = skin
+    for slot, skin in zip(obj.material_slots, skins, strict=True):
+        slot.material = skin
     bpy.data.materials.remove(material)
 
 
 def read_light(path: Path) -> Light:
     """The light in a file with the passes of a render."""
-    channels = {}
-    for part in range(oiio.ImageBuf(str(path)).nsubimages):
-        image = oiio.ImageBuf(str(path), part, 0)
-        planes = np.moveaxis(image.get_pixels(oiio.FLOAT), -1, 0)
-        channels.update(zip(image.spec().channelnames, planes, strict=True))
-    passes = {}
-    for property_name, names in PASSES.items():
-        found = [planes for name, planes in channels.items() if name.split(".")[1] in names]
-        passes[property_name] = np.stack(found, axis=-1)
+    channels = read_channels(path)
+    passes = {key: one_pass(channels, names) for key, names in PASSES.items()}
     albedo = passes["diffuse_color"]
     return Light(
         scattered=passes["diffuse_direct"] * albedo,
@@ -125,6 +135,22 @@ def read_light(path: Path) -> Light:
         position=passes["position"],
         normal=passes["normal"],
     )
+
+
+def read_channels(path: Path) -> dict[str, np.ndarray]:
+    """All channels (rows, columns) in a file with the passes of a render, by their names."""
+    channels = {}
+    for part in range(oiio.ImageBuf(str(path)).nsubimages):
+        image = oiio.ImageBuf(str(path), part, 0)
+        planes = np.moveaxis(image.get_pixels(oiio.FLOAT), -1, 0)
+        channels.update(zip(image.spec().channelnames, planes, strict=True))
+    return channels
+
+
+def one_pass(channels: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray:
+    """The pass (rows, columns, 3 or 4) that has one of the names in `read_channels`."""
+    found = [planes for name, planes in channels.items() if name.split(".")[1] in names]
+    return np.stack(found, axis=-1)
 
 
 def set_file_format(scene: bpy.types.Scene, kind: str, file_format: str) -> None:

@@ -1,5 +1,6 @@
 """The scene: a subject with its mask as a mesh object, camera, lights and backdrop."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +19,32 @@ SIZE = (540, 720)
 # Faces this near to the cloth's edge are cut finely enough to hold it.
 FINE_WITHIN = 0.008
 FINE_CUTS = 5
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """A soft lamp of the same effect on a subject of any size.
+
+    Attributes
+    ----------
+    turned : float
+        Angle in degrees about the vertical from the camera on.
+    up : float
+        Height as a share of the distance.
+    size : float
+        Diameter as a share of the picture's height.
+    power : float
+        What a white surface that faces it would reflect.
+    """
+
+    name: str
+    turned: float
+    up: float
+    size: float
+    power: float
+
+
+LAMPS = (Lamp("Key", 45.0, 0.45, 1.3, 1.5), Lamp("Rim", -115.0, 0.35, 0.8, 0.45))
 
 
 @dataclass(frozen=True)
@@ -66,7 +93,7 @@ def suzanne() -> Subject:
     return Subject("Suzanne", Mesh(vertices, faces), 3, cloth, (-0.018, 0.0, 0.0), 0.44, 200.0)
 
 
-def build(subject: Subject) -> bpy.types.Object:
+def build(subject: Subject, lamps: Sequence[Lamp] = LAMPS) -> bpy.types.Object:
     """Fill an empty scene with the subject, camera and light; returns the subject's object."""
     scene = bpy.context.scene
     obj = bpy.data.objects.new(subject.name, subdivided(subject))
@@ -81,8 +108,8 @@ def build(subject: Subject) -> bpy.types.Object:
     camera.sensor_height = SENSOR_MILLIMETRES
     scene.camera = _placed("Camera", camera, subject, subject.turned, 0.04, distance)
     scene.render.resolution_x, scene.render.resolution_y = SIZE
-    _light("Key", subject, turned=45.0, up=0.45, size=1.3, power=1.5)
-    _light("Rim", subject, turned=-115.0, up=0.35, size=0.8, power=0.45)
+    for lamp in lamps:
+        _light(lamp, subject)
     scene.world = _backdrop(light=0.22)
     scene.view_settings.view_transform = "Standard"
     return obj
@@ -134,15 +161,13 @@ def _edge_distance(mesh: bpy.types.Mesh, cloth: swimsuit.Field) -> np.ndarray:
     return swimsuit.distance_to_edge(cloth, *positions_and_normals(mesh))
 
 
-def _light(name: str, subject: Subject, *, turned: float, up: float, size: float, power: float):
-    """Soft light of the same effect on a subject of any size."""
-    light = bpy.data.lights.new(name, "AREA")
+def _light(lamp: Lamp, subject: Subject) -> None:
+    light = bpy.data.lights.new(lamp.name, "AREA")
     light.shape = "DISK"
-    light.size = size * subject.height
+    light.size = lamp.size * subject.height
     distance = 2.5 * subject.height
-    # A white surface facing it would reflect `power`.
-    light.energy = power * np.pi**2 * distance**2
-    _placed(name, light, subject, subject.turned + turned, up, distance)
+    light.energy = lamp.power * np.pi**2 * distance**2
+    _placed(lamp.name, light, subject, subject.turned + lamp.turned, lamp.up, distance)
 
 
 def _placed(name: str, data, subject: Subject, turned: float, up: float, distance: float):

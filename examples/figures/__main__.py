@@ -19,6 +19,7 @@ from examples.figures import (
     melanin_forms,
     people,
     predecessors,
+    renders,
     report,
     sensitivity,
     tanning,
@@ -41,6 +42,7 @@ GROUPS = (
     tanning,
     tanning_claims,
     people,
+    renders,
 )
 """Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
 

@@ -1,0 +1,275 @@
+"""Renders after figures 6.24 to 6.29: skins and doses, where the sun gets, readings, the path."""
+
+import subprocess
+import sys
+
+import bpy
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+import blender_addon
+from examples.demo import render, scene
+from examples.figures import renders, scenes, shots
+from examples.figures.light import Effort
+from examples.figures.renders import Panel, Result
+from hylios.colour import lab
+from hylios.specimen import SPECIMENS
+from hylios.tanning import PIGMENTATIONS
+from lut_builder.build import Settings
+from lut_builder.exr import write_table
+
+STAND_IN = ("--stand-in", "--scale", "0.12", "--samples", "32")
+COARSE = Settings(knots=(3, 1, 1), visible=(450.0, 550.0, 650.0), rays=300)
+"""Enough for the path; nobody looks at the colours."""
+
+
+def grey(lightness):
+    """Linear Rec.709 (..., 3) of greys with the given L*, from 8 on."""
+    luminance = ((np.asarray(lightness) + 16.0) / 116.0) ** 3
+    return np.repeat(luminance[..., None], 3, axis=-1)
+
+
+def seen(name, lightness, shine=(0.3, 0.3)):
+    """The result of a shot by name with the given L* of its parts and beside them."""
+    (shot,) = shots.named([name])
+    colour = grey(lightness)
+    return Result(
+        shot, np.zeros((4, 3, 3)), colour, colour, colour, np.array(shine), np.ones((4, 3)), "Back"
+    )
+
+
+def test_the_figures_are_listed_without_blender():
+    code = "import sys, examples.figures.__main__; sys.exit('bpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_schedules_have_the_totals_of_the_abstract_and_two_doses_a_week():
+    totals = [sum(dose for _, dose in schedule) for schedule in shots.SCHEDULES]
+    assert totals == pytest.approx([19.0, 29.0, 42.0])
+    assert [day for day, _ in shots.SCHEDULES[0]] == [0, 3, 7, 10, 14, 17, 21, 24]
+    assert shots.scaled(((1.0, 2.0), (3.0, 4.0)), 2.5) == ((1.0, 5.0), (3.0, 10.0))
+
+
+def test_the_skins_are_those_of_the_captions():
+    skins = shots.skins()
+    assert (skins["low"].mmd, skins["low"].med) == (2.89, 1.7)
+    assert skins["intermediate"].mmd == pytest.approx(1.4 * 2.89)
+    assert skins["high"].med == pytest.approx(2.4 * 1.7)
+    assert skins["high"].specimen == SPECIMENS["S4"]
+    assert skins["strong"].dynamics.extra_production == (0.0858, 0.0, 0.0)
+    assert skins["strong"].dynamics.transfer == PIGMENTATIONS["low"].transfer
+    assert skins["beach"].dynamics == PIGMENTATIONS["intermediate"]
+
+
+def test_the_skin_between_is_halfway_from_light_to_dark():
+    untanned = np.array([*PIGMENTATIONS["low"].steady_state(), 1.0])
+    skins = [shots.skins()[name] for name in ("low", "intermediate", "high")]
+    low, between, high = (lab(renders.colour(each, untanned))[0] for each in skins)
+    assert between == pytest.approx((low + high) / 2, abs=2.0)
+
+
+def test_every_shot_has_its_table_and_day():
+    every = shots.shots()
+    assert len({shot.name for shot in every}) == len(every)
+    assert {shot.table for shot in every} == {*shots.skins(), shots.UV}
+    assert all(0 <= shot.day <= shots.LAST_DAY for shot in every)
+    assert {shot.name.split()[0] for shot in every} == set(renders.FIGURES)
+
+
+def test_patches_are_rounded_squares_one_over_the_other():
+    side = np.linspace(-0.12, 0.12, 961)
+    across, up = (each.ravel() for each in np.meshgrid(side, side))
+    inside = scenes.square_patches(across, up) > 0
+    area = inside.sum() * (side[1] - side[0]) ** 2
+    rounded = (4.0 - np.pi) * scenes.PATCH_CORNER**2
+    assert area == pytest.approx(3 * (4.0 * scenes.PATCH_HALF**2 - rounded), rel=0.01)
+    heights = np.array(scenes.PATCH_HEIGHTS)
+    assert np.array_equal(scenes.nearest_patch(heights), [0, 1, 2])
+    assert np.allclose(
+        scenes.square_patches(np.zeros(3), heights), scenes.PATCH_HALF
+    )  # a distance: how far the centre is from the edge
+
+
+def test_the_painted_sun_has_a_disk_and_twelve_rays():
+    angle = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    middle = 0.5 * (scenes.RAY_FROM + scenes.RAY_TO)
+    on_rays = scenes.sun_sign(middle * np.cos(angle), middle * np.sin(angle))
+    assert np.allclose(on_rays, -0.5 * scenes.RAY_WIDTH)
+    turned = angle + np.pi / 12
+    assert np.all(scenes.sun_sign(middle * np.cos(turned), middle * np.sin(turned)) > 0)
+    assert scenes.sun_sign(np.zeros(1), np.zeros(1))[0] == pytest.approx(-scenes.SUN_RADIUS)
+
+
+def test_sun_and_shade_stay_on_their_side_of_the_body():
+    place = scenes.Place((0.0, 0.0, 1.2))
+    points = np.array([[0.0, 0.1, 1.2], [0.0, -0.1, 1.2]])
+    assert list(scenes.patches_at(place)(points) > 0) == [True, False]
+    assert list(scenes.sunscreen_at(place)(points) > 0) == [False, True]
+
+
+def flat_light(scattered):
+    """Light of a flat piece of skin 20 cm wide that faces y, (40, 40) pixels."""
+    side = np.linspace(-0.1, 0.1, 40)
+    x, z = np.meshgrid(side, side)
+    position = np.stack([x, np.zeros_like(x), z], axis=-1)
+    normal = np.broadcast_to([0.0, 1.0, 0.0], position.shape)
+    return render.Light(scattered, scattered, position, normal)
+
+
+def half_stage(centre):
+    subject = scene.Subject("Flat", None, 0, scenes.half, (0.0, 0.0, 0.0), 0.2, 0.0)
+    return scenes.Stage(subject, (), scenes.whole, 1, centre, 0.1)
+
+
+def test_a_colour_is_read_as_a_share_of_white_away_from_the_edge():
+    white = flat_light(np.full((40, 40, 3), 0.8))
+    colours = np.where(white.position[..., :1] > 0, [0.4, 0.2, 0.1], [0.6, 0.5, 0.4])
+    edge = np.abs(white.position[..., :1]) < 0.5 * scenes.CLEAR_OF_EDGE
+    light = flat_light(0.8 * np.where(edge, 9.0, colours))
+    stage = half_stage((0.0, 0.0, 0.0))
+    distance = scenes.sun_distance(white, stage)
+    assert np.nanmax(np.abs(distance - white.position[..., 0])) < 1e-9
+    where = scenes.regions(white, distance, stage)
+    found = scenes.readings(light, white, where)
+    assert np.allclose(found, [[0.4, 0.2, 0.1], [0.6, 0.5, 0.4]])
+    shone = scenes.shine(scenes.Taken(light.scattered + 0.25, light), where)
+    assert np.allclose(shone, 0.25)
+
+
+def test_nothing_is_read_where_nothing_is_seen():
+    white = flat_light(np.full((40, 40, 3), 0.8))
+    stage = half_stage((0.0, 5.0, 0.0))
+    where = scenes.regions(white, scenes.sun_distance(white, stage), stage)
+    assert not np.any(where)
+    assert np.all(np.isnan(scenes.readings(white, white, where)))
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory):
+    path = tmp_path_factory.mktemp("tables") / "low.exr"
+    low = shots.skins()["low"]
+    write_table(path, renders.build(low, COARSE))
+    return path
+
+
+def test_three_schedules_on_one_object_are_three_materials(table):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    blender_addon.register()
+    try:
+        obj = scenes.built(scenes.stages(None)["patches"])
+        scenes.tan(obj, table, shots.SCHEDULES)
+        names = [material.name for material in obj.data.materials]
+        assert names == ["Skin Tan Suzanne", "Skin Tan Suzanne 1", "Skin Tan Suzanne 2"]
+        assert [each.name for each in bpy.data.objects if each.type == "MESH"] == ["Suzanne"]
+        last = [
+            np.array(bpy.data.images[f"Skin Tan Colour {name[9:]}"].pixels[:]).sum()
+            for name in names
+        ]
+        assert last[0] > last[1] > last[2]  # stronger schedules are darker
+        assert {face.material_index for face in obj.data.polygons} == {0, 1, 2}
+        skin = obj.data.materials[0].node_tree
+        scenes.set_gloss(obj.data.materials[0], sunscreen=True)
+        assert sum(node.label == "Sunscreen" for node in skin.nodes) == 3
+        scenes.set_gloss(obj.data.materials[0], sunscreen=False)
+        assert not any(node.label == "Sunscreen" for node in skin.nodes)
+    finally:
+        blender_addon.unregister()
+
+
+def test_what_is_said_of_patches_follows_the_readings():
+    days = (0, *shots.CLOSE_DAYS, 45)
+    tanned = [seen(f"6.24 day {day}", [61.0, 58.0, 55.0, 65.0]) for day in days]
+    assert renders.schedules(tanned)[1][0].met
+    crossed = [*tanned[:-1], seen("6.24 day 45", [61.0, 58.0, 59.0, 65.0])]
+    assert not renders.schedules(crossed)[1][0].met
+
+
+def test_what_is_said_of_three_skins_follows_the_readings():
+    names = tuple(shots.SENSITIVITY)
+    falling = [
+        seen(f"6.25 {name}", [60.0 - step, 55.0 - step, 50.0 - step, 60.2])
+        for name, step in zip(names, (9.0, 5.0, 0.0), strict=True)
+    ]
+    assert [row.met for row in renders.plain(falling)[1]] == [True, True, True]
+    assert [row.met for row in renders.plain(falling[::-1])[1]][0] is True  # by name, not place
+    rising = [
+        seen(f"6.26 {name}", [60.0 - step, 55.0 - step, 50.0 - step, 60.2])
+        for name, step in zip(names, (0.0, 5.0, 9.0), strict=True)
+    ]
+    assert renders.matched(rising)[1][0].met
+
+
+def test_what_is_said_of_sunscreen_and_face_follows_the_readings():
+    days = [
+        seen(f"6.27 day {day}", [dark, 65.0])
+        for day, dark in zip(shots.AIRPORT_DAYS, (65.0, 50.0, 40.0), strict=True)
+    ]
+    assert renders.strong(days)[1][0].met
+    assert not renders.strong([*days[:2], seen("6.27 day 15", [55.0, 65.0])])[1][0].met
+    faces = [
+        seen(f"6.28 {light} day {day}", [60.0, 65.0], shine=(0.2, 0.5))
+        for light in ("visible", "UV")
+        for day in shots.FACE_DAYS
+    ]
+    assert renders.face(faces)[1][0].met
+    assert renders.mild_beside_strong(days, faces).met
+    assert not renders.mild_beside_strong(faces, days).met
+
+
+def test_what_is_said_of_a_month_follows_the_readings():
+    def month(peak, fade):
+        days = np.array(shots.DAILY)
+        rise, fall = (days / peak) ** 0.3, np.exp(-(((days - peak) / fade) ** 2))
+        change = 10.0 * np.where(days < peak, rise, fall)
+        return [
+            seen(f"6.29 small, day {day}", [65.0 - value, 65.0])
+            for day, value in zip(days, change, strict=True)
+        ]
+
+    assert [row.met for row in renders.month(month(9, 24.0))[1]] == [True, True]
+    assert [row.met for row in renders.month(month(25, 24.0))[1]] == [False, False]
+
+
+def test_a_sheet_holds_every_picture_pixel_by_pixel(tmp_path):
+    red, blue = np.zeros((30, 20, 3)), np.zeros((40, 25, 3))
+    red[..., 0], blue[..., 2] = 1.0, 1.0
+    panels = [[Panel(red, "a"), Panel(blue, "b\nc", (0.2, 0.8, 0.2, 0.8))]]
+    renders.sheet("Two", panels, tmp_path / "two.png")
+    drawn = imread(tmp_path / "two.png")[..., :3]
+    assert np.all(drawn == red[0, 0], axis=-1).sum() == 30 * 20
+    assert 0 < np.all(drawn == blue[0, 0], axis=-1).sum() < 40 * 25  # all but the frame
+
+
+def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
+    monkeypatch.setattr(renders, "SETTINGS", COARSE)
+    monkeypatch.setattr(renders, "UV_RAYS", 300)
+    wanted = shots.named(["6.28 visible day 0", "6.28 UV day 15"])
+    ticks = []
+    found = renders.rendered(wanted, tmp_path, Effort(seed=1), ticks.append, STAND_IN)
+    assert [each.shot for each in found] == wanted
+    assert ticks.count(renders.PICTURE_AS_LONG) == 2
+    visible, uv = found
+    assert visible.subject == "Suzanne"
+    assert visible.picture.shape == uv.picture.shape == (43, 32, 3)
+    assert visible.exact is not None and uv.exact is None
+    assert np.abs(lab(visible.readings) - lab(visible.predicted))[:, 0].max() < renders.NEAR
+    assert uv.readings[0, 0] < uv.readings[1, 0]
+    assert np.ptp(uv.readings, axis=1).max() < 1e-6  # grey
+
+
+def test_blender_that_fails_is_told_in_a_sentence(tmp_path):
+    wanted = shots.named(["6.27 day 0"])  # whose table is not there
+    with pytest.raises(renders.InputError, match="could not render the figures .status 2."):
+        renders.run_blender(wanted, tmp_path, STAND_IN, lambda _: None)
+
+
+@pytest.mark.slow
+def test_all_figures_from_tiny_renders_of_the_stand_in(tmp_path):
+    found = renders.rendered(shots.shots(), tmp_path, Effort(seed=1), lambda _: None, STAND_IN)
+    rows = renders.draw({"renders": found}, tmp_path)
+    assert {f"{name}.png" for name in renders.FIGURES} <= {each.name for each in tmp_path.iterdir()}
+    assert {row.where for row in rows} == set(renders.FIGURES)
+    near = [row for row in rows if row.what.startswith("L* read")]
+    assert len(near) == 6 and all(row.met for row in near)
+    assert all(row.met for row in rows if row.where in ("6.24", "6.27", "6.29"))

@@ -18,20 +18,19 @@ from matplotlib.patches import Rectangle
 
 from examples.figures import report, shots
 from examples.figures.light import RAYS_AS_LONG, Effort, Task, Tick
-from examples.figures.shots import UV, Schedule, Shot, Window
+from examples.figures.shots import UV, Shot, Window
+from examples.figures.tans import Schedule, history
 from hylios.adding import spectrum as solved
 from hylios.colour import TINTS, difference, lab, linear_of_srgb, linear_rec709, srgb
 from hylios.errors import InputError
 from hylios.pictures import write_figure
 from hylios.profile import burley_width
-from hylios.specimen import overfull, tanned
-from hylios.table import PLANES, SkinTable
-from hylios.tanning import Exposures, TanningHistory, simulate
+from hylios.skin import Skin
+from hylios.table import SkinTable
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.build import ANGLE, Settings, build, visible_wavelengths
 from lut_builder.exr import write_table
-from lut_builder.states import Skin
 
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 
@@ -48,11 +47,11 @@ UV_EXPOSURE = 1.7
 
 def uv_table(table: SkinTable, made_for: Skin, effort: Effort) -> SkinTable:
     """The table with reflectance and profile width at 365 nm in place of colour, as a grey."""
-    values = table.values.copy()
+    planes = {name: table.planes[name].copy() for name in ("subsurface_colour", "profile_width")}
     for knot in np.ndindex(*table.axes.shape):
         state = table.axes.knot_states()[knot]
         found = walked(
-            tanned(made_for.specimen, state[:3], state[3]),
+            made_for.tanned(state[:3], state[3]),
             np.array([UV_NM]),
             angle=ANGLE,
             rays=UV_RAYS,
@@ -60,9 +59,9 @@ def uv_table(table: SkinTable, made_for: Skin, effort: Effort) -> SkinTable:
             threads=effort.threads,
         )
         width = burley_width(DISTANCE_EDGES, found.exit_counts[0])
-        values[knot][PLANES.index("subsurface_colour")] = found.subsurface[0]
-        values[knot][PLANES.index("profile_width")] = width
-    return replace(table, values=values)
+        planes["subsurface_colour"][knot] = found.subsurface[0]
+        planes["profile_width"][knot] = width
+    return replace(table, planes={**table.planes, **planes})
 
 
 @dataclass(frozen=True)
@@ -210,24 +209,10 @@ def tanning_states(shot: Shot, made_for: Skin) -> np.ndarray:
     return np.array([history(made_for, each, shot.day).states[-1] for each in every])
 
 
-def history(made_for: Skin, schedule: Schedule, days: float) -> TanningHistory:
-    """What a schedule does to a skin, every hour up to a day."""
-    return simulate(
-        Exposures(
-            hours=np.array([round(24 * day) for day, _ in schedule], dtype=int),
-            doses=np.array([dose for _, dose in schedule], dtype=float),
-        ),
-        made_for.dynamics,
-        mmd=made_for.mmd,
-        med=made_for.med,
-        hours=round(24 * days),
-    )
-
-
 def colour(made_for: Skin, state: np.ndarray) -> np.ndarray:
     """Colour (3,) of the light out of skin in a tanning state (4,), without noise."""
     wavelengths = np.array(SETTINGS.visible)
-    found = solved(tanned(made_for.specimen, state[:3], state[3]), wavelengths, angle=ANGLE)
+    found = solved(made_for.tanned(state[:3], state[3]), wavelengths, angle=ANGLE)
     return linear_rec709(wavelengths, found.subsurface)
 
 
@@ -434,7 +419,7 @@ def _filling() -> report.Row:
     """What so much melanin does to a layer, over the days of the figure."""
     made_for = shots.skins()["strong"]
     over = history(made_for, shots.BEACH, shots.LAST_DAY)
-    cut = any(overfull(made_for.specimen, state[:3], state[3]) for state in over.states)
+    cut = any(made_for.overfull(state[:3], state[3]) for state in over.states)
     return report.Row(
         "6.27",
         "most melanin, as a multiple of the untanned skin's",

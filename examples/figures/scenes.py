@@ -445,7 +445,6 @@ def shoot(
 
 def main(asked: argparse.Namespace) -> None:
     """Render what is asked for, and print the name of each shot when it is done."""
-    shots.strong_skin()  # makes its set known to Apply
     found = stages(None if asked.stand_in else body_wheel())
     blender_addon.register()
     wanted = shots.named(asked.names)

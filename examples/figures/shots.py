@@ -1,80 +1,44 @@
 """What the renders after figures 6.24 to 6.29 show: skins, schedules, days. Needs no Blender."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen
-from hylios.tanning import PIGMENTATIONS
-from lut_builder.states import Skin, skin
+from examples.figures import tans
+from examples.figures.tans import MILLER_SKIN, Schedule
+from hylios.skin import Skin, skin
+from hylios.specimen import SPECIMENS, Specimen
 
-Schedule = tuple[tuple[float, float], ...]
-"""Exposures as (day, SED)."""
-
-
-def twice_a_week(count: int, total: float) -> Schedule:
-    """So many equal doses of a total in SED, the first on day 0."""
-    return tuple((7.0 * (n // 2) + 3.0 * (n % 2), total / count) for n in range(count))
-
-
-SCHEDULES = (twice_a_week(8, 19.0), twice_a_week(8, 29.0), twice_a_week(10, 42.0))
-"""Of the upper, middle and lower patch: figure 6.23 only plots Miller et al.'s doses. Numbers and
-totals are from the abstract of Miller et al. 2008 (British Journal of Dermatology 159, 921); that
-it means these, their times and that doses are equal is ASSUMED."""
+SCHEDULES = tuple(tuple(tans.SCHEDULES[name]) for name in ("19 SED", "29 SED", "42 SED"))
+"""Of the upper, middle and lower patch: those of figure 6.23."""
 
 BEACH: Schedule = ((0.0, 30.0),)
 """Figures 6.27 to 6.29."""
 
-MMD, MED = 2.89, 1.7
-"""In SED, of the low set's specimen (section 6.2.2)."""
+MMD, MED = MILLER_SKIN.mmd, MILLER_SKIN.med
 
 SENSITIVITY = {"low": 1.0, "intermediate": 1.4, "high": 2.4}
 """By what figure 6.26 scales the doses. ASSUMED to be each skin's minimal doses over the low
 set's: equation 3.2 would give 1.5 and 3.2 times its own for S3."""
 
-STRONG = "low, high tanning ability"
-STRONG_PRODUCTION = 0.0858
-"""Extra production of the stratum basale in figure 6.27."""
-
-INTERMEDIATE_MELANIN = 3.0
-"""Times S3's."""
+STRONG = {"basale_extra_production": 0.0858}
+"""What differs from the low set in figure 6.27."""
 
 
 def skins() -> dict[str, Skin]:
     """The skins of the renders; tables have their names."""
     s3, s4 = SPECIMENS["S3"], SPECIMENS["S4"]
     return {
-        "low": skin(s3, "low", MMD, MED),
-        "intermediate": _less_sensitive(between(), "intermediate"),
+        "low": MILLER_SKIN,
+        "intermediate": _less_sensitive(tans.between(), "intermediate"),
         "high": _less_sensitive(s4, "high"),
-        "strong": strong_skin(),
+        "strong": skin(s3, "low", MMD, MED, tanning=STRONG),
         "beach": skin(s3, "intermediate", MMD, MED),
     }
-
-
-def between() -> Specimen:
-    """S3 with more melanin in every layer and form, so that L* is halfway to S4's.
-
-    ASSUMED: the thesis names no specimen for the intermediate set.
-    """
-    s3 = SPECIMENS["S3"]
-    forms = ("melanosomes", "colloidal_melanin")
-    names = [f"{layer}_{form}" for layer in EPIDERMIS for form in forms]
-    more = {name: INTERMEDIATE_MELANIN * getattr(s3, name) for name in names}
-    return replace(s3, name="between S3 and S4", **more)
 
 
 def _less_sensitive(specimen: Specimen, pigmentation: str) -> Skin:
     factor = SENSITIVITY[pigmentation]
     return skin(specimen, pigmentation, factor * MMD, factor * MED)
-
-
-def strong_skin() -> Skin:
-    """S3 with the low set and a high tanning ability (figure 6.27)."""
-    low = PIGMENTATIONS["low"]
-    more = (STRONG_PRODUCTION, *low.extra_production[1:])
-    # Tables name their set; this one is known by a name of its own.
-    PIGMENTATIONS.setdefault(STRONG, replace(low, extra_production=more))
-    return skin(SPECIMENS["S3"], STRONG, MMD, MED)
 
 
 def scaled(schedule: Schedule, factor: float) -> Schedule:

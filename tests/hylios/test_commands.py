@@ -82,11 +82,11 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --figure keratin=/none.csv", "the figure in /none.csv cannot be read"),
         ("tan --dose 30", "expected HOUR:SED"),
         ("tan --dose 0:-3", "a dose is negative"),
-        ("tan --dose 0.5:3", "hours of exposure are"),
+        ("tan --dose 0.5:3", "an hour of exposure is"),
         ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
         ("tan --hours -1", "number of hours is -1"),
-        ("tan --dose inf:30", "hours of exposure are"),
-        ("tan --dose 1e19:30", "hours of exposure are"),
+        ("tan --dose inf:30", "an hour of exposure is"),
+        ("tan --dose 1e19:30", "an hour of exposure is"),
     ],
 )
 def test_bad_input_is_one_sentence_and_status_2(capsys, arguments, sentence):

@@ -42,11 +42,11 @@ class Exposures:
         outside = hours[~((hours >= 0) & (hours <= LONGEST_HOURS))]
         if outside.size:
             raise InputError(
-                f"an hour of exposure is {outside[0]:g}; allowed is 0 to {LONGEST_HOURS}."
+                f"an hour of exposure is {outside[0]:.10g}; allowed is 0 to {LONGEST_HOURS}."
             )
         between = hours[hours != np.floor(hours)]
         if between.size:
-            raise InputError(f"an hour of exposure is {between[0]:g}; allowed are whole hours.")
+            raise InputError(f"an hour of exposure is {between[0]:.10g}; allowed are whole hours.")
         doses = _checked_doses(self.doses, hours.size)
         thickening = self.thickening_doses
         thickening = doses if thickening is None else _checked_doses(thickening, hours.size)

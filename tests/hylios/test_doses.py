@@ -100,6 +100,9 @@ def test_many_exposures_at_once_equal_each_alone():
         ([310.0, 300.0], [1.0, 1.0], "at least two wavelengths, ascending"),
         ([300.0], [1.0], "at least two wavelengths, ascending"),
         ([300.0, 310.0], [1.0, 1.0, 1.0], "its last axis must match the 2 wavelengths"),
+        ([300.0, 310.0], [1.0, 1e16], "too large; allowed is 0 to"),
+        (["UVA", "UVB"], [1.0, 1.0], "wavelengths of a spectral dose are .* expected an array"),
+        ([300.0, 310.0], [[1.0], [1.0, 2.0]], "values of a spectral dose are .* expected an array"),
     ],
 )
 def test_a_bad_spectrum_is_named(wavelengths, exposure, sentence):
@@ -313,6 +316,15 @@ def test_tan_takes_what_dose_prints(capsys):
     assert float(by_sun[-1]["total"]) == pytest.approx(float(plain[-1]["total"]), abs=1e-8)
 
 
+def test_melanin_that_is_set_counts_for_the_minimal_doses(capsys):
+    """3.2 of the specimen that is asked for, be it named or not."""
+    asked = "dose --dose 0:1 --set basale_melanosomes=20 "
+    (named,), _ = run(asked + "--specimen S3", capsys)
+    (usual,), _ = run("dose --dose 0:1 --specimen S3", capsys)
+    assert run(asked, capsys)[0] == [named]
+    assert float(named["mmd_multiple"]) < 0.8 * float(usual["mmd_multiple"])
+
+
 def test_tan_by_multiples(capsys):
     multiple, _ = run("tan --dose 0:2.5MMD --mmd 4 --hours 200", capsys)
     plain, _ = run("tan --dose 0:10 --mmd 4 --hours 200", capsys)
@@ -346,6 +358,8 @@ def test_the_sun_needs_no_numba():
         ("--sun 2025-06-21:10-16", "--sun needs --latitude"),
         ("--latitude 40", "--latitude is given without --sun"),
         ("--start 2025-06-21", "--start is given without --sun"),
+        ("--dose 0:3 --ozone 300", "--ozone is given without --sun"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --start 1900-01-01", "of exposure is 1099858;"),
         ("--sun 2025-06-31:10-16 --latitude 40", "a date is '2025-06-31'"),
         ("--sun 2025-06-21 --latitude 40", "expected DATE:FROM-TO"),
         ("--sun 2025-06-21:10 --latitude 40", "expected DATE:FROM-TO"),
@@ -386,7 +400,9 @@ def test_bad_exposures_are_one_sentence_and_status_2(capsys, command, arguments,
         ("250,1\n300,1\n", "has light at 250 nm"),
         ("300,1\n310,-1\n", "negative or not a number"),
         ("300,1\n", "at least two wavelengths"),
+        ("300,1e308\n310,1e308\n", "too large; allowed is 0 to 1e+15 J/m^2/nm"),
         ("", "it is empty"),
+        ("wavelength_nm,irradiance_w_m2_nm\n", "needs one or more wavelengths"),
     ],
 )
 def test_a_bad_file_of_a_lamp_is_one_sentence(capsys, tmp_path, text, sentence):

@@ -16,7 +16,8 @@ from hylios.adding.ultraviolet import tabulated
 from hylios.cli import main
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
-from hylios.spectra import figures
+from hylios.spectra import figures, replaced
+from hylios.tissue import readings
 from hylios.ultraviolet.dose import (
     ERYTHEMA,
     MELANOGENESIS,
@@ -142,6 +143,9 @@ def test_more_light_for_longer_is_more_dose(light, times, seconds, spf):
         assert np.all(every(doses) >= 0.0)
 
 
+COLUMNS = ("erythemal", "melanogenesis", "thickening")
+
+
 def every(doses: Doses):
     return np.array([doses.erythemal, doses.melanogenesis, doses.thickening])
 
@@ -168,6 +172,15 @@ def test_protection_weighs_each_wavelength():
     assert np.all(every(of_spectrum(0, NM, line(311.0), 60.0, SKIN, film)) == 0.0)
     assert 0.0 < of_sed(0, 1.0, film).erythemal[0] < 0.2
     assert every(of_sed(0, 30.0, clothing(15.0))) == pytest.approx(2.0)
+    assert every(of_uv_index(0, 10.0, 1.0, clothing(15.0))) == pytest.approx(0.6)
+
+
+def test_melanin_and_thickness_are_given_their_own_doses():
+    doses = of_spectrum(0, NM, line(365.0), 60.0, SKIN)
+    assert doses.melanogenesis[0] > 2.0 * doses.thickening[0] > 0.0
+    given = doses.exposures()
+    assert np.array_equal(given.doses, doses.melanogenesis)
+    assert np.array_equal(given.thickening_doses, doses.thickening)
 
 
 def test_the_hours_of_a_day_add_up():
@@ -197,6 +210,13 @@ def test_no_sun_no_dose():
     assert night.hours.size == 24
     assert np.all(every(night) == 0.0)
     assert np.all(every(of_sun(SUMMER, 0.0, 4.0, 40.0, SKIN)) == 0.0)
+
+
+def test_december_in_the_south_is_stronger_than_june_in_the_north():
+    """By the squares of the distances, 1.0163 and .9838 astronomical units, and nothing else."""
+    north = of_sun(SUMMER, 8.0, 16.0, 40.0, SKIN).erythemal.sum()
+    south = of_sun(date(2025, 12, 21), 8.0, 16.0, -40.0, SKIN).erythemal.sum()
+    assert south / north == pytest.approx((1.0163 / 0.9838) ** 2, rel=2e-3)
 
 
 def test_a_day_in_june_is_tens_of_sed():
@@ -287,6 +307,25 @@ def test_a_clock_and_a_start(capsys):
     assert row["hour"] == "36"
     (noon,), _ = run("dose --sun 2025-06-21:12-13 --latitude 48", capsys)
     assert float(row["erythemal_sed"]) < float(noon["erythemal_sed"])
+
+
+def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
+    """Options of the sky, and a reading and a figure of one's own, as in the functions."""
+    asked = "dose --sun 2025-06-21:12-13 --latitude 40 "
+    (row,), _ = run(f"{asked} --ozone 400 --altitude 2000 --aerosol 0.3 --albedo 0.8", capsys)
+    sky = ClearSky(400.0, 2000.0, 0.3, 0.8)
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]), sky=sky)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    own = tmp_path / "dna.csv"
+    own.write_text("250,0\n2500,0\n")
+    more = f"--figure dna={own} --reading colloidal_melanin=solid"
+    (row,), _ = run(f"{asked} {more}", capsys)
+    known = replaced(figures(), "dna", own)
+    skin = tabulated(SPECIMENS["S3"], known=known, chosen=readings({"colloidal_melanin": "solid"}))
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    usual = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]))
+    assert expected.thickening[0] != pytest.approx(usual.thickening[0], rel=1e-3)
 
 
 def test_protection_on_the_command_line(capsys, tmp_path):

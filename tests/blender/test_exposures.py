@@ -54,6 +54,7 @@ def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
     assert found.hours.tolist() == [72 + 11, 72 + 12, 72 + 13]
     assert np.array_equal(found.melanogenesis, expected.melanogenesis)
     assert np.all(found.melanogenesis > found.erythemal)
+    assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * found.erythemal)
 
 
 @pytest.mark.parametrize(("from_hour", "late"), [(0.0, False), (12.0, False), (13.0, True)])

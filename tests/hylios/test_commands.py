@@ -45,6 +45,20 @@ def test_a_parameter_and_a_reading_change_the_spectrum(capsys):
     assert outputs[2] > outputs[0] + 0.05
 
 
+def test_tan_takes_a_med_and_steps(capsys):
+    """Thickness alone follows the MED; lines come by the step, halves of an hour between."""
+    asked = "tan --dose 0:10 --mmd 5 --hours 24 "
+    outputs = []
+    for more in ("--med 3", "--med 50", "--med 3 --step 0.5", "--med 3 --step 12"):
+        assert main((asked + more).split()) == 0
+        outputs.append(rows(capsys.readouterr().out))
+    usual, hardy, halves, longer = outputs
+    assert [row["total"] for row in usual] == [row["total"] for row in hardy]
+    assert float(usual[-1]["thickness"]) > 1.05 and float(hardy[-1]["thickness"]) == 1.0
+    assert halves[::2] == usual and halves[1]["hour"] == "0.5"
+    assert [row["hour"] for row in longer] == ["0", "12", "24"]
+
+
 def test_tan_prints_every_hour(capsys):
     arguments = ["tan", "--pigmentation", "intermediate", "--dose", "0:30", "--mmd", "2.89"]
     assert main([*arguments, "--med", "1.7", "--hours", "240"]) == 0

@@ -59,6 +59,18 @@ def test_tan_takes_a_med_and_steps(capsys):
     assert [row["hour"] for row in longer] == ["0", "12", "24"]
 
 
+@pytest.mark.parametrize("name", ["S4", "VI", "III"])
+def test_a_specimen_written_to_a_file_tans_as_by_its_name(capsys, tmp_path, name):
+    assert main(["specimen", name, "--toml"]) == 0
+    file = tmp_path / "own.toml"
+    file.write_text(capsys.readouterr().out)
+    outputs = []
+    for specimen in (name, str(file)):
+        assert main(["tan", "--specimen", specimen, "--dose", "0:30", "--hours", "48"]) == 0
+        outputs.append(rows(capsys.readouterr().out))
+    assert outputs[0] == outputs[1]
+
+
 def test_tan_prints_every_hour(capsys):
     arguments = ["tan", "--pigmentation", "intermediate", "--dose", "0:30", "--mmd", "2.89"]
     assert main([*arguments, "--med", "1.7", "--hours", "240"]) == 0

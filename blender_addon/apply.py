@@ -141,7 +141,7 @@ def _assign(obj, material) -> str:
 
 
 def _late_exposures(settings) -> str:
-    late = sum(exposure.day > settings.last_day for exposure in settings.exposures)
+    late = sum(doses.begin(each) > 24.0 * settings.last_day for each in settings.exposures)
     if not late:
         return ""
     return f" Exposures after day {settings.last_day:g} have no effect: {late}."

@@ -37,7 +37,7 @@ def received(exposures: Iterable, mmd: float, provenance: Mapping) -> Doses:
 def of_exposure(exposure, mmd: float, provenance: Mapping) -> Doses:
     """Doses of one exposure; parameters and errors as in `received`."""
     over = sunscreen(exposure.spf, exposure.sunscreen_amount) if exposure.sunscreen else BARE
-    hour = hour_of(exposure.day)
+    hour = begin(exposure)
     if exposure.unit == "MMD":
         return of_sed(hour, exposure.multiple * mmd, over)
     if exposure.unit == "UV_INDEX":
@@ -51,21 +51,22 @@ def of_exposure(exposure, mmd: float, provenance: Mapping) -> Doses:
             absorptance(provenance),
             protection=over,
         )
-        midnight = 24.0 * np.floor(exposure.day)
-        return replace(from_midnight, hours=from_midnight.hours + midnight)
+        return replace(from_midnight, hours=from_midnight.hours + 24.0 * np.floor(exposure.day))
     return of_sed(hour, exposure.dose, over)
 
 
-def hour_of(day: float) -> int:
-    """The hour of the tanning model in which an exposure at a time in days takes place.
+def begin(exposure) -> int:
+    """The hour of the tanning model in which an exposure begins.
 
     Raises
     ------
     InputError
-        If the day is out of range.
+        If its day is out of range.
     """
-    require_range("day of an exposure", day, 0.0, LAST_DAY_LIMIT)
-    return int(np.floor(24.0 * day + 0.5))
+    require_range("day of an exposure", exposure.day, 0.0, LAST_DAY_LIMIT)
+    if exposure.unit == "SUN":
+        return 24 * int(exposure.day) + int(exposure.from_hour)
+    return int(np.floor(24.0 * exposure.day + 0.5))
 
 
 def absorptance(provenance: Mapping) -> Absorptance:

@@ -1,5 +1,8 @@
 """The one exception of this project for input that cannot be used."""
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 
 class InputError(ValueError):
     """Input that cannot be used; its message is one sentence with the thing, value and range."""
@@ -13,7 +16,7 @@ def require_range(name: str, value: float, low: float, high: float, unit: str = 
     InputError
         If it does not, or if it is not a number.
     """
-    if not low <= value <= high:
+    if not _inside(name, value, low, high):
         suffix = f" {unit}" if unit else ""
         raise InputError(f"{name} is {value:g}{suffix}; allowed is {low:g} to {high:g}{suffix}.")
     return value
@@ -28,8 +31,29 @@ def require_whole(name: str, value: float, low: int, high: int) -> int:
         If it is not.
     """
     given = f"{value:g}" if isinstance(value, float) else value
-    if not low <= value <= high:
+    if not _inside(name, value, low, high):
         raise InputError(f"{name} is {given}; allowed is {low} to {high}.")
     if value != int(value):
         raise InputError(f"{name} is {given}; allowed are whole numbers, {low} to {high}.")
     return int(value)
+
+
+def as_numbers(name: str, values: ArrayLike) -> np.ndarray:
+    """Values as an array of floats of their own, of any shape.
+
+    Raises
+    ------
+    InputError
+        If they are no such array.
+    """
+    try:
+        return np.array(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} are {str(values)[:60]}; expected an array of numbers.") from error
+
+
+def _inside(name: str, value: float, low: float, high: float) -> bool:
+    try:
+        return bool(low <= value <= high)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} is {str(value)[:60]!r}; expected a number.") from error

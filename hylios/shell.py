@@ -166,22 +166,22 @@ def _specimen_name(asked: argparse.Namespace) -> str:
 def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state") -> Skin:
     """The skin that the arguments ask for: `chosen_specimen`, and how it tans.
 
-    A skin type, be it named by `--skin` or as a specimen, tans as the type does; `--pigmentation`
-    puts a whole set in the place of that, `--tanning` single rates.
+    A skin type, be it named by `--skin`, as a specimen or in a specimen's file, tans as the type
+    does; `--pigmentation` puts a whole set in the place of that, `--tanning` single rates.
 
     Raises
     ------
     InputError
         If there is none, or a part of it cannot be used.
     """
-    specimen, name = chosen_specimen(asked), _specimen_name(asked)
+    specimen = chosen_specimen(asked)
     rates = {
         rate: number(text, rate)
         for rate, text in named_values(asked.tanning, "a rate of tanning").items()
     }
     pigmentation = asked.pigmentation
-    if name in PHOTOTYPES and pigmentation is None:
-        usual = phototype(name)
+    if specimen.name in PHOTOTYPES and pigmentation is None:
+        usual = phototype(specimen.name)
         pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
     return skin(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
 

@@ -27,7 +27,7 @@ from hylios.tanning import (
     minimal_melanogenesis_dose,
 )
 from hylios.tissue import FIGURES
-from hylios.ultraviolet.dose import FIRST_NM, LAST_NM, MELANOGENESIS
+from hylios.ultraviolet.dose import FIRST_NM, LAST_NM, MELANOGENESIS, Absorptance
 from hylios.ultraviolet.exposures import (
     Doses,
     joined,
@@ -47,6 +47,13 @@ from hylios.ultraviolet.protection import (
 from hylios.ultraviolet.sky import ClearSky
 
 USUAL_SKY = ClearSky()
+SKY = {
+    "ozone": ("DU", "ozone column"),
+    "altitude": ("M", "over the sea"),
+    "aerosol": ("DEPTH", "optical depth of the aerosol at 500 nm"),
+    "albedo": ("SHARE", "of the ground in the ultraviolet, snow 0.8"),
+}
+"""Options that say what the air is like: `ClearSky`'s names, with their units and meaning."""
 
 EXPOSURES = """\
 Exposures of all kinds can be given together, each repeatedly; hours count from the beginning. Doses
@@ -74,7 +81,7 @@ def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
 def chosen(asked: argparse.Namespace) -> Chosen:
     """The skin that the arguments ask for, and the spectral figures and readings.
 
-    Without a skin type or specimen, minimal doses are those typical of the tanning set.
+    Where nothing is said of the specimen, minimal doses are those typical of the tanning set.
 
     Raises
     ------
@@ -83,7 +90,7 @@ def chosen(asked: argparse.Namespace) -> Chosen:
     """
     _, known, decided = chosen_skin(asked)
     skin = chosen_tanning_skin(asked)
-    if asked.skin is None and asked.specimen is None:
+    if asked.skin is None and asked.specimen is None and not asked.set:
         typical = TYPICAL_PIGMENTATION[skin.pigmentation]
         mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
         med = minimal_erythema_dose(typical) if asked.med is None else asked.med
@@ -109,15 +116,9 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
         ("--utc-offset", "HOURS", "of that clock, with daylight saving (default 0)"),
     ):
         sun.add_argument(option, type=float, metavar=metavar, help=help_text)
-    for option, metavar, usual, help_text in (
-        ("--ozone", "DU", USUAL_SKY.ozone, "ozone column"),
-        ("--altitude", "M", USUAL_SKY.altitude, "over the sea"),
-        ("--aerosol", "DEPTH", USUAL_SKY.aerosol, "optical depth of the aerosol at 500 nm"),
-        ("--albedo", "SHARE", USUAL_SKY.albedo, "of the ground in the ultraviolet, snow 0.8"),
-    ):
-        sun.add_argument(
-            option, type=float, metavar=metavar, default=usual, help=f"{help_text} ({usual:g})"
-        )
+    for name, (metavar, help_text) in SKY.items():
+        usual = f"{help_text} ({getattr(USUAL_SKY, name):g})"
+        sun.add_argument(f"--{name}", type=float, metavar=metavar, help=usual)
     over = parser.add_argument_group("protection", "Over the skin at all exposures.")
     over.add_argument("--spf", type=float, help="of a sunscreen at 2 mg/cm^2; grey")
     over.add_argument(
@@ -143,41 +144,57 @@ def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
     over = _protection(asked)
     parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in asked.dose]
     parts += [of_uv_index(*_uv_index(text), over) for text in asked.uv_index]
-    suns = [_sun(text) for text in asked.sun]
-    if not suns:
-        for option in ("start", "latitude", "longitude", "utc_offset"):
-            if getattr(asked, option) is not None:
-                raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
-    elif asked.latitude is None:
-        raise InputError("--sun needs --latitude, in degrees, north positive.")
-    elif asked.utc_offset is not None and asked.longitude is None:
-        raise InputError("--utc-offset is given without --longitude.")
-    if suns or asked.spectrum:
+    _require_place(asked)
+    if asked.sun or asked.spectrum:
         from hylios.adding.ultraviolet import tabulated  # the light model: only for a spectrum
 
         absorptance = tabulated(of.skin.specimen, known=of.known, chosen=of.readings)
         parts += [
             of_spectrum(*_spectrum(text), absorptance, over, of.known) for text in asked.spectrum
         ]
-        sky = ClearSky(asked.ozone, asked.altitude, asked.aerosol, asked.albedo)
-        start = _date(asked.start) if asked.start else min((each[0] for each in suns), default=None)
-        parts += [
-            of_sun(
-                *each,
-                asked.latitude,
-                absorptance,
-                start=start,
-                longitude=asked.longitude,
-                utc_offset=asked.utc_offset or 0.0,
-                sky=sky,
-                protection=over,
-                known=of.known,
-            )
-            for each in suns
-        ]
+        parts += _of_sun(asked, absorptance, over, of.known)
+    found = joined(parts)
+    found.exposures()  # whatever cannot be used is refused before anything is said
+    if asked.sun or asked.spectrum:
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
         note_estimates(of.known, light, (*FIGURES, MELANOGENESIS))
-    return joined(parts)
+    return found
+
+
+def _require_place(asked: argparse.Namespace) -> None:
+    """Raise InputError where options of the sun are missing, or there without it."""
+    if not asked.sun:
+        for option in ("start", "latitude", "longitude", "utc_offset", *SKY):
+            if getattr(asked, option) is not None:
+                raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
+    elif asked.latitude is None:
+        raise InputError("--sun needs --latitude, in degrees, north positive.")
+    elif asked.utc_offset is not None and asked.longitude is None:
+        raise InputError("--utc-offset is given without --longitude.")
+
+
+def _of_sun(
+    asked: argparse.Namespace, absorptance: Absorptance, over: Protection, known: Figures
+) -> list[Doses]:
+    """The doses of each `--sun`."""
+    suns = [_sun(text) for text in asked.sun]
+    start = _date(asked.start) if asked.start else min((each[0] for each in suns), default=None)
+    air = {name: getattr(asked, name) for name in SKY}
+    sky = ClearSky(**{name: value for name, value in air.items() if value is not None})
+    return [
+        of_sun(
+            *each,
+            asked.latitude,
+            absorptance,
+            start=start,
+            longitude=asked.longitude,
+            utc_offset=asked.utc_offset or 0.0,
+            sky=sky,
+            protection=over,
+            known=known,
+        )
+        for each in suns
+    ]
 
 
 def _protection(asked: argparse.Namespace) -> Protection:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, as_numbers
 
 LONGEST_HOURS = 24 * 366 * 100
 LARGEST_DOSE = 1e12  # SED; far beyond any, and its sums stay finite
@@ -23,7 +23,7 @@ class Exposures:
         body that different shares of the light reach.
     thickening_doses : (..., E) float array, optional
         Dose in SED as it counts for the thickness, where the light's spectrum has it differ
-        (`hylios.dose`); the same as `doses` by default.
+        (`hylios.ultraviolet`); the same as `doses` by default.
 
     Raises
     ------
@@ -36,13 +36,17 @@ class Exposures:
     thickening_doses: np.ndarray | None = None
 
     def __post_init__(self):
-        hours = np.asarray(self.hours)
-        if hours.ndim != 1 or not np.all((hours >= 0) & (hours <= LONGEST_HOURS)):
+        hours = as_numbers("hours of exposure", self.hours)
+        if hours.ndim != 1:
+            raise InputError(f"hours of exposure have shape {hours.shape}; expected one row.")
+        outside = hours[~((hours >= 0) & (hours <= LONGEST_HOURS))]
+        if outside.size:
             raise InputError(
-                f"hours of exposure are {hours.tolist()}; allowed are 0 to {LONGEST_HOURS}."
+                f"an hour of exposure is {outside[0]:.10g}; allowed is 0 to {LONGEST_HOURS}."
             )
-        if not np.all(hours == np.floor(hours)):
-            raise InputError(f"hours of exposure are {hours.tolist()}; allowed are whole hours.")
+        between = hours[hours != np.floor(hours)]
+        if between.size:
+            raise InputError(f"an hour of exposure is {between[0]:.10g}; allowed are whole hours.")
         doses = _checked_doses(self.doses, hours.size)
         thickening = self.thickening_doses
         thickening = doses if thickening is None else _checked_doses(thickening, hours.size)
@@ -56,7 +60,7 @@ class Exposures:
 
 
 def _checked_doses(given: np.ndarray, exposures: int) -> np.ndarray:
-    doses = np.array(given, dtype=float)
+    doses = as_numbers("doses", given)
     if doses.ndim < 1 or doses.shape[-1] != exposures:
         raise InputError(
             f"doses have shape {doses.shape}; the last axis must match the {exposures} hours."

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hylios.errors import InputError
+from hylios.errors import InputError, as_numbers
 from hylios.spectra import Figures, figures
 
 SED = 100.0
@@ -21,6 +21,9 @@ REFERENCE_NM = 298.0
 
 FIRST_NM, LAST_NM = 280.0, 400.0
 """Range of light that counts: nothing acts beyond it, and skin is not tabulated below."""
+
+LARGEST_EXPOSURE = 1e15
+"""In J/m^2/nm; far beyond any, and its sums stay finite."""
 
 MELANOGENESIS, ERYTHEMA = "melanogenesis_action", "erythema_action"
 
@@ -71,7 +74,8 @@ def require_curve(
         If they are not two rows of one length, the wavelengths do not ascend, or a value is out of
         range.
     """
-    wavelengths, values = np.array(wavelengths, dtype=float), np.array(values, dtype=float)
+    wavelengths = as_numbers(f"wavelengths of {name}", wavelengths)
+    values = as_numbers(f"values of {name}", values)
     if wavelengths.ndim != 1 or values.shape != wavelengths.shape:
         raise InputError(
             f"{name} has shape {values.shape} at wavelengths of shape {wavelengths.shape}; "
@@ -177,8 +181,8 @@ def resampled(wavelengths: ArrayLike, exposure: ArrayLike) -> tuple[np.ndarray, 
     (V,) array, (..., V) array
         Wavelengths in nm and the exposure there.
     """
-    wavelengths = np.asarray(wavelengths, dtype=float)
-    exposure = np.asarray(exposure, dtype=float)
+    wavelengths = as_numbers("wavelengths of a spectral dose", wavelengths)
+    exposure = as_numbers("values of a spectral dose", exposure)
     if wavelengths.ndim != 1 or wavelengths.size < 2 or not np.all(np.diff(wavelengths) > 0):
         raise InputError("a spectral dose needs at least two wavelengths, ascending, in nm.")
     if exposure.ndim < 1 or exposure.shape[-1] != wavelengths.size:
@@ -199,6 +203,11 @@ def resampled(wavelengths: ArrayLike, exposure: ArrayLike) -> tuple[np.ndarray, 
     light = np.empty((*exposure.shape[:-1], grid.size))
     for place in np.ndindex(exposure.shape[:-1]):
         light[place] = np.interp(grid, wavelengths, exposure[place], left=0.0, right=0.0)
+    if not np.all((light >= 0.0) & (light <= LARGEST_EXPOSURE)):
+        raise InputError(
+            f"a spectral dose is negative or not a number or too large; allowed is 0 to "
+            f"{LARGEST_EXPOSURE:g} J/m^2/nm."
+        )
     return grid, light
 
 

@@ -11,7 +11,7 @@ from datetime import date
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, as_numbers, require_range
 from hylios.spectra import Figures
 from hylios.tanning import Exposures
 from hylios.ultraviolet.dose import (
@@ -137,7 +137,8 @@ def of_spectrum(
     """
     require_range("time of exposure", seconds, 0.0, 3600.0 * LONGEST, "s")
     hours, shares = _spread(hour, seconds / 3600.0)
-    exposure = 3600.0 * shares[:, None] * np.asarray(irradiance, dtype=float)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused below
+        exposure = 3600.0 * shares[:, None] * as_numbers("values of a spectral dose", irradiance)
     return _of_light(hours, wavelengths, exposure, absorptance, protection, known)
 
 

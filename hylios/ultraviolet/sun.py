@@ -12,7 +12,7 @@ from datetime import date
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, as_numbers, require_range
 
 FIRST_YEAR, LAST_YEAR = 1900, 2100
 
@@ -65,7 +65,7 @@ def sun(
     """
     require_range("year of the sun", day.year, FIRST_YEAR, LAST_YEAR)
     require_range("latitude", latitude, -90.0, 90.0, "degrees")
-    hours = np.asarray(hours, dtype=float)
+    hours = as_numbers("hours of the day", hours)
     if not np.all(np.isfinite(hours)):
         raise InputError("an hour of the day is not a number; allowed are 0 to 24.")
     universal = hours

@@ -153,18 +153,25 @@ def test_exposures_after_the_last_day_are_reported(body, capfd):
     assert "Exposures after day 30 have no effect: 1." in capfd.readouterr().out
 
 
-def test_own_minimal_doses_replace_the_table_s(body):
-    def last_row():
-        apply()
-        image = bpy.data.images["Skin Tan Colour Body"]
-        pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        return pixels.reshape(image.size[1], image.size[0], 4)[-1, -1, :3]
+def last_row():
+    """Apply; the colour of the last day where all of the dose arrived."""
+    apply()
+    image = bpy.data.images["Skin Tan Colour Body"]
+    pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels.reshape(image.size[1], image.size[0], 4)[-1, -1, :3]
 
+
+def test_own_minimal_doses_replace_the_table_s(body):
+    """The MMD for melanin alone, which is all of this table's colour; and for multiples of it."""
     tanned = last_row()
     body.skin_tan.own_minimal_doses = True
-    body.skin_tan.mmd = body.skin_tan.med = 50.0
+    body.skin_tan.mmd, body.skin_tan.med = 50.0, 2.9
     assert np.all(last_row() > tanned + 0.01)
+    body.skin_tan.exposures[0].unit, body.skin_tan.exposures[0].multiple = "MMD", 3.0
+    of_multiple = last_row()
+    body.skin_tan.exposures[0].unit, body.skin_tan.exposures[0].dose = "SED", 150.0
+    assert np.array_equal(last_row(), of_multiple)
 
 
 def test_exposures_are_added_and_removed(body):

@@ -54,6 +54,20 @@ def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
     assert found.hours.tolist() == [72 + 11, 72 + 12, 72 + 13]
     assert np.array_equal(found.melanogenesis, expected.melanogenesis)
     assert np.all(found.melanogenesis > found.erythemal)
+    assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * found.erythemal)
+
+
+@pytest.mark.parametrize(("from_hour", "late"), [(0.0, False), (12.0, False), (13.0, True)])
+def test_sun_is_late_by_its_hours(table_path, monkeypatch, capfd, from_hour, late):
+    """Day 30.9 stands for day 30; what begins by the last day, noon of it, has an effect."""
+    obj = tan_object(table_path)
+    monkeypatch.setattr(doses, "absorptance", lambda _: Absorptance([280.0, 400.0], [0.9, 0.9]))
+    exposure, obj.skin_tan.last_day = obj.skin_tan.exposures[0], 30.5
+    exposure.unit, exposure.day = "SUN", 30.9
+    exposure.from_hour, exposure.to_hour = from_hour, 16.0
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    assert ("after day 30.5 have no effect: 1." in capfd.readouterr().out) == late
+    assert (np.ptp(pixels()[-4 * 512 :][::4]) > 0.0) != late
 
 
 def test_thin_sunscreen_lets_through_the_root():

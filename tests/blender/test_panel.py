@@ -109,6 +109,13 @@ def test_every_unit_says_what_reaches_the_skin(table_path, unit, line, label):
     assert label not in drawn() or unit == "SUN"
 
 
+def test_a_multiple_is_of_the_dose_that_is_set_by_hand(table_path):
+    obj = tan_object(table_path)
+    obj.skin_tan.exposures[0].unit = "MMD"
+    obj.skin_tan.own_minimal_doses, obj.skin_tan.mmd = True, 7.2
+    assert "14.4 SED: 2.0 h of strong summer sun" in drawn()
+
+
 def test_the_sun_says_that_its_dose_is_provisional(table_path, monkeypatch):
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].unit = "SUN"

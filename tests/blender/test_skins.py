@@ -2,15 +2,19 @@
 
 from dataclasses import replace
 
+import bpy
 import numpy as np
 import pytest
+from synthetic import tan_object
 
-from blender_addon import properties, tables
+import blender_addon.tan as module
+from blender_addon import doses, properties, tables
 from blender_addon.tan import tan
 from hylios.errors import InputError
 from hylios.skin import varied
 from hylios.table import described_dynamics
-from hylios.tanning import PIGMENTATIONS
+from hylios.tanning import PIGMENTATIONS, states_at
+from hylios.ultraviolet.dose import Absorptance
 from hylios.ultraviolet.exposures import of_sed
 
 SPAN = {"mmd": 4.9, "med": 2.9, "first_day": 0.0, "last_day": 10.0}
@@ -31,6 +35,29 @@ def test_the_dynamics_in_the_header_count(table):
     assert darkest(spelt) == darkest(table)
     less = varied(usual, {"basale_extra_production": 0.0, "spinosum_extra_production": 0.0})
     assert darkest(with_header(table, melanin_dynamics=described_dynamics(less))) > darkest(table)
+
+
+def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
+    """What Apply asks of the tanning model: sun counts more for melanin; the frame range alone."""
+    asked = {}
+
+    def recorded(exposures, dynamics, **more):
+        asked.update(more, exposures=exposures)
+        return states_at(exposures, dynamics, **more)
+
+    monkeypatch.setattr(module, "states_at", recorded)
+    monkeypatch.setattr(doses, "absorptance", lambda _: Absorptance([280.0, 400.0], [0.9, 0.9]))
+    settings = tan_object(table_path).skin_tan
+    settings.exposures[0].unit = "SUN"
+    settings.own_minimal_doses, settings.mmd, settings.med = True, 6.0, 4.0
+    settings.first_day, settings.last_day = 3.0, 10.0
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    assert (asked["mmd"], asked["med"]) == (6.0, 4.0)
+    assert (asked["times"].min(), asked["times"].max()) == (72.0, 240.0)
+    whole = doses.of_exposure(settings.exposures[0], 6.0, {})
+    assert np.array_equal(asked["exposures"].doses[-1], whole.melanogenesis)
+    assert np.array_equal(asked["exposures"].thickening_doses[-1], whole.thickening)
+    assert np.all(whole.melanogenesis > 2.0 * whole.thickening)
 
 
 def test_a_table_that_does_not_say_how_it_tans_is_refused(table):

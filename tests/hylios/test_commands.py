@@ -45,6 +45,32 @@ def test_a_parameter_and_a_reading_change_the_spectrum(capsys):
     assert outputs[2] > outputs[0] + 0.05
 
 
+def test_tan_takes_a_med_and_steps(capsys):
+    """Thickness alone follows the MED; lines come by the step, halves of an hour between."""
+    asked = "tan --dose 0:10 --mmd 5 --hours 24 "
+    outputs = []
+    for more in ("--med 3", "--med 50", "--med 3 --step 0.5", "--med 3 --step 12"):
+        assert main((asked + more).split()) == 0
+        outputs.append(rows(capsys.readouterr().out))
+    usual, hardy, halves, longer = outputs
+    assert [row["total"] for row in usual] == [row["total"] for row in hardy]
+    assert float(usual[-1]["thickness"]) > 1.05 and float(hardy[-1]["thickness"]) == 1.0
+    assert halves[::2] == usual and halves[1]["hour"] == "0.5"
+    assert [row["hour"] for row in longer] == ["0", "12", "24"]
+
+
+@pytest.mark.parametrize("name", ["S4", "VI", "III"])
+def test_a_specimen_written_to_a_file_tans_as_by_its_name(capsys, tmp_path, name):
+    assert main(["specimen", name, "--toml"]) == 0
+    file = tmp_path / "own.toml"
+    file.write_text(capsys.readouterr().out)
+    outputs = []
+    for specimen in (name, str(file)):
+        assert main(["tan", "--specimen", specimen, "--dose", "0:30", "--hours", "48"]) == 0
+        outputs.append(rows(capsys.readouterr().out))
+    assert outputs[0] == outputs[1]
+
+
 def test_tan_prints_every_hour(capsys):
     arguments = ["tan", "--pigmentation", "intermediate", "--dose", "0:30", "--mmd", "2.89"]
     assert main([*arguments, "--med", "1.7", "--hours", "240"]) == 0
@@ -82,11 +108,11 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --figure keratin=/none.csv", "the figure in /none.csv cannot be read"),
         ("tan --dose 30", "expected HOUR:SED"),
         ("tan --dose 0:-3", "a dose is negative"),
-        ("tan --dose 0.5:3", "hours of exposure are"),
+        ("tan --dose 0.5:3", "an hour of exposure is"),
         ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
         ("tan --hours -1", "number of hours is -1"),
-        ("tan --dose inf:30", "hours of exposure are"),
-        ("tan --dose 1e19:30", "hours of exposure are"),
+        ("tan --dose inf:30", "an hour of exposure is"),
+        ("tan --dose 1e19:30", "an hour of exposure is"),
     ],
 )
 def test_bad_input_is_one_sentence_and_status_2(capsys, arguments, sentence):

@@ -16,7 +16,8 @@ from hylios.adding.ultraviolet import tabulated
 from hylios.cli import main
 from hylios.errors import InputError
 from hylios.specimen import SPECIMENS
-from hylios.spectra import figures
+from hylios.spectra import figures, replaced
+from hylios.tissue import readings
 from hylios.ultraviolet.dose import (
     ERYTHEMA,
     MELANOGENESIS,
@@ -100,6 +101,9 @@ def test_many_exposures_at_once_equal_each_alone():
         ([310.0, 300.0], [1.0, 1.0], "at least two wavelengths, ascending"),
         ([300.0], [1.0], "at least two wavelengths, ascending"),
         ([300.0, 310.0], [1.0, 1.0, 1.0], "its last axis must match the 2 wavelengths"),
+        ([300.0, 310.0], [1.0, 1e16], "too large; allowed is 0 to"),
+        (["UVA", "UVB"], [1.0, 1.0], "wavelengths of a spectral dose are .* expected an array"),
+        ([300.0, 310.0], [[1.0], [1.0, 2.0]], "values of a spectral dose are .* expected an array"),
     ],
 )
 def test_a_bad_spectrum_is_named(wavelengths, exposure, sentence):
@@ -139,6 +143,9 @@ def test_more_light_for_longer_is_more_dose(light, times, seconds, spf):
         assert np.all(every(doses) >= 0.0)
 
 
+COLUMNS = ("erythemal", "melanogenesis", "thickening")
+
+
 def every(doses: Doses):
     return np.array([doses.erythemal, doses.melanogenesis, doses.thickening])
 
@@ -165,6 +172,15 @@ def test_protection_weighs_each_wavelength():
     assert np.all(every(of_spectrum(0, NM, line(311.0), 60.0, SKIN, film)) == 0.0)
     assert 0.0 < of_sed(0, 1.0, film).erythemal[0] < 0.2
     assert every(of_sed(0, 30.0, clothing(15.0))) == pytest.approx(2.0)
+    assert every(of_uv_index(0, 10.0, 1.0, clothing(15.0))) == pytest.approx(0.6)
+
+
+def test_melanin_and_thickness_are_given_their_own_doses():
+    doses = of_spectrum(0, NM, line(365.0), 60.0, SKIN)
+    assert doses.melanogenesis[0] > 2.0 * doses.thickening[0] > 0.0
+    given = doses.exposures()
+    assert np.array_equal(given.doses, doses.melanogenesis)
+    assert np.array_equal(given.thickening_doses, doses.thickening)
 
 
 def test_the_hours_of_a_day_add_up():
@@ -194,6 +210,13 @@ def test_no_sun_no_dose():
     assert night.hours.size == 24
     assert np.all(every(night) == 0.0)
     assert np.all(every(of_sun(SUMMER, 0.0, 4.0, 40.0, SKIN)) == 0.0)
+
+
+def test_december_in_the_south_is_stronger_than_june_in_the_north():
+    """By the squares of the distances, 1.0163 and .9838 astronomical units, and nothing else."""
+    north = of_sun(SUMMER, 8.0, 16.0, 40.0, SKIN).erythemal.sum()
+    south = of_sun(date(2025, 12, 21), 8.0, 16.0, -40.0, SKIN).erythemal.sum()
+    assert south / north == pytest.approx((1.0163 / 0.9838) ** 2, rel=2e-3)
 
 
 def test_a_day_in_june_is_tens_of_sed():
@@ -286,6 +309,25 @@ def test_a_clock_and_a_start(capsys):
     assert float(row["erythemal_sed"]) < float(noon["erythemal_sed"])
 
 
+def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
+    """Options of the sky, and a reading and a figure of one's own, as in the functions."""
+    asked = "dose --sun 2025-06-21:12-13 --latitude 40 "
+    (row,), _ = run(f"{asked} --ozone 400 --altitude 2000 --aerosol 0.3 --albedo 0.8", capsys)
+    sky = ClearSky(400.0, 2000.0, 0.3, 0.8)
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]), sky=sky)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    own = tmp_path / "dna.csv"
+    own.write_text("250,0\n2500,0\n")
+    more = f"--figure dna={own} --reading colloidal_melanin=solid"
+    (row,), _ = run(f"{asked} {more}", capsys)
+    known = replaced(figures(), "dna", own)
+    skin = tabulated(SPECIMENS["S3"], known=known, chosen=readings({"colloidal_melanin": "solid"}))
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    usual = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]))
+    assert expected.thickening[0] != pytest.approx(usual.thickening[0], rel=1e-3)
+
+
 def test_protection_on_the_command_line(capsys, tmp_path):
     asked = "dose --sun 2025-06-21:12-13 --dose 0:8 --latitude 40 "
     bare, _ = run(asked, capsys)
@@ -313,6 +355,15 @@ def test_tan_takes_what_dose_prints(capsys):
     assert float(by_sun[-1]["total"]) == pytest.approx(float(plain[-1]["total"]), abs=1e-8)
 
 
+def test_melanin_that_is_set_counts_for_the_minimal_doses(capsys):
+    """3.2 of the specimen that is asked for, be it named or not."""
+    asked = "dose --dose 0:1 --set basale_melanosomes=20 "
+    (named,), _ = run(asked + "--specimen S3", capsys)
+    (usual,), _ = run("dose --dose 0:1 --specimen S3", capsys)
+    assert run(asked, capsys)[0] == [named]
+    assert float(named["mmd_multiple"]) < 0.8 * float(usual["mmd_multiple"])
+
+
 def test_tan_by_multiples(capsys):
     multiple, _ = run("tan --dose 0:2.5MMD --mmd 4 --hours 200", capsys)
     plain, _ = run("tan --dose 0:10 --mmd 4 --hours 200", capsys)
@@ -336,16 +387,18 @@ def test_the_sun_needs_no_numba():
         ("--dose 0:MMD", "dose is ''; expected a number"),
         ("--dose x:3", "hour of a dose is 'x'"),
         ("--dose 0:nanMMD", "a dose is negative, not finite"),
-        ("--dose 0.5:3", "hours of exposure are"),
+        ("--dose 0.5:3", "an hour of exposure is"),
         ("--dose 0:3 --mmd 0", "MMD is 0 SED"),
         ("--dose 0:3 --med nan", "MED is nan SED"),
         ("--uv-index 0:10", "an exposure by UV index is '0:10'; expected HOUR:INDEX:HOURS"),
         ("--uv-index 0:-1:1", "UV index is -1; allowed is 0 to 50"),
         ("--uv-index 0:1:-1", "duration is -1 hours"),
-        ("--uv-index=-1:1:1", "hours of exposure are"),
+        ("--uv-index=-1:1:1", "an hour of exposure is"),
         ("--sun 2025-06-21:10-16", "--sun needs --latitude"),
         ("--latitude 40", "--latitude is given without --sun"),
         ("--start 2025-06-21", "--start is given without --sun"),
+        ("--dose 0:3 --ozone 300", "--ozone is given without --sun"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --start 1900-01-01", "of exposure is 1099858;"),
         ("--sun 2025-06-31:10-16 --latitude 40", "a date is '2025-06-31'"),
         ("--sun 2025-06-21 --latitude 40", "expected DATE:FROM-TO"),
         ("--sun 2025-06-21:10 --latitude 40", "expected DATE:FROM-TO"),
@@ -386,7 +439,9 @@ def test_bad_exposures_are_one_sentence_and_status_2(capsys, command, arguments,
         ("250,1\n300,1\n", "has light at 250 nm"),
         ("300,1\n310,-1\n", "negative or not a number"),
         ("300,1\n", "at least two wavelengths"),
+        ("300,1e308\n310,1e308\n", "too large; allowed is 0 to 1e+15 J/m^2/nm"),
         ("", "it is empty"),
+        ("wavelength_nm,irradiance_w_m2_nm\n", "needs one or more wavelengths"),
     ],
 )
 def test_a_bad_file_of_a_lamp_is_one_sentence(capsys, tmp_path, text, sentence):

@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from dataclasses import asdict, fields
+from dataclasses import asdict, fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ from hylios.colour import difference, linear_rec709
 from hylios.errors import InputError
 from hylios.phototypes import PHOTOTYPES, fitting, named_specimen, phototype
 from hylios.physiology import PHYSIOLOGY
-from hylios.skin import Skin
+from hylios.skin import Skin, varied
 from hylios.specimen import SPECIMENS, Specimen, parameters, specimen_of
 from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory, simulate
 
@@ -206,6 +206,17 @@ def test_no_tan_of_a_type_overfills_a_layer(name):
     )
     assert not any(skin.overfull(state[:3], state[3]) for state in history.states)
     assert history.total.max() < 2.6
+
+
+def test_the_thesis_ability_all_but_fills_the_granulosum_of_type_4():
+    """As `types.toml` says of 0.0858 in type IV after 30 SED; no layer is cut."""
+    usual = phototype("IV").skin
+    able = replace(usual, dynamics=varied(usual.dynamics, {"basale_extra_production": 0.0858}))
+    history = after(able, SED)
+    assert history.total.max() == pytest.approx(7.2, abs=0.1)
+    held = [able.tanned(state[:3], state[3]).melanin for state in history.states[0]]
+    assert np.max(held, axis=0) == pytest.approx([0.36, 0.50, 0.93], abs=0.01)
+    assert not any(able.overfull(state[:3], state[3]) for state in history.states[0])
 
 
 def assert_fitted_as_the_file_says(name):

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hylios.errors import InputError
+from hylios.ultraviolet.dose import erythemal_dose
 from hylios.ultraviolet.protection import (
     BARE,
     Protection,
@@ -14,6 +15,7 @@ from hylios.ultraviolet.protection import (
     sunscreen,
     sunscreen_film,
 )
+from hylios.ultraviolet.sky import ClearSky, sunlight
 
 NM = np.arange(290.0, 401.0, 5.0)
 FILTER = np.where(NM < 330.0, 0.02, 0.5)
@@ -43,6 +45,16 @@ def test_the_spf_of_a_film_is_weighed_by_erythema():
     share = sunscreen_film(NM, FILTER).of_sunlight()
     below_330 = (0.5 - share) / (0.5 - 0.02)
     assert 0.8 < below_330 < 0.95
+
+
+def test_the_sun_of_an_spf():
+    """20 degrees from the zenith, 305 Dobson units, on level ground."""
+    light = sunlight(20.0, ClearSky(ozone=305.0))
+    film = sunscreen_film(NM, FILTER)
+    passed = erythemal_dose(light.wavelengths, light.level * film.at(light.wavelengths))
+    assert film.of_sunlight() == pytest.approx(
+        passed / erythemal_dose(light.wavelengths, light.level)
+    )
 
 
 def test_a_film_is_thinned_at_every_wavelength_for_itself():

@@ -125,3 +125,21 @@ def test_every_rate_can_be_varied_by_name():
 def test_bad_skins_are_refused(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         skin(SPECIMENS["S3"], **arguments)
+
+
+def test_minimal_doses_are_those_of_the_ends_beyond_the_range_of_3_1_and_3_2():
+    bare = {f"{layer}_colloidal_melanin": 0.0 for layer in ("basale", "spinosum", "granulosum")}
+    full = {layer: 60.0 for layer in bare}
+    for values, level in ((bare, 0.013), (full, 0.43)):
+        made_for = skin(replace(SPECIMENS["S3"], basale_melanosomes=0.0, **values))
+        assert made_for.mmd == pytest.approx(4.3132 * np.exp(5.1295 * level))
+        assert made_for.med == pytest.approx(2.1973 * np.exp(7.4043 * level))
+
+
+def test_what_overfills_is_told_by_the_distribution_that_is_kept():
+    """All melanin in the basale of its own: a state that overfills 5.16's granulosum does not."""
+    usual = SPECIMENS["S3"]
+    bare = replace(usual, granulosum_colloidal_melanin=0.0, spinosum_colloidal_melanin=0.0)
+    state = np.array([0.5, 0.5, 100.0])
+    assert skin(bare).overfull(state, 1.0)
+    assert not skin(bare, untanned="own").overfull(state, 1.0)

@@ -138,6 +138,13 @@ def test_direct_light_by_hand():
     assert at(light, 380.0, light.direct) == pytest.approx(expected, rel=1e-4)
 
 
+def test_altitude_by_hand():
+    """As high as the scale height, e times fewer molecules are over one: .45076 to .16583."""
+    high, low = (sunlight(0.0, ClearSky(aerosol=0.0, altitude=each)) for each in (8434.0, 0.0))
+    risen = at(high, 380.0, high.direct) / at(low, 380.0, low.direct)
+    assert risen == pytest.approx(np.exp(0.45076 * (1.0 - np.exp(-1.0)) * 0.99971), rel=1e-4)
+
+
 def test_ozone_by_hand():
     """300 nm: 100 Dobson units are 2.687e18 molecules of 3.616e-19 cm^2 over a cm^2."""
     light = [sunlight(0.0, ClearSky(ozone=each)) for each in (300.0, 400.0)]

@@ -27,8 +27,11 @@ from hylios.shell import run
 FRAMES_PER_DAY = 4
 SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.30, 0.65
 SKIN_ROUGHNESS, SKIN_SPECULAR = 0.45, 0.5
-CLEAR_OF_EDGE = 0.008
+CLEAR_OF_EDGE = 0.006
 """Metres from the edge of a patch from which on its colour is read."""
+
+FACING = 0.6
+"""Cosine of the angle from the skin's normal to the camera, from which on its colour is read."""
 
 CAP_COLOUR = (0.010, 0.022, 0.050, 1.0)
 CAP_THICKNESS = 0.0022
@@ -208,19 +211,19 @@ def _with_body(wheel: Path) -> dict[str, Stage]:
 
 
 def _with_suzanne() -> dict[str, Stage]:
-    place = Place((0.0, 0.0, 0.0), 0.7)
+    squares, sun = Place((0.042, 0.0, 0.045), 0.55), Place((0.0, 0.0, 0.04), 0.7)
     monkey = scene.suzanne()
 
     def part(points: np.ndarray) -> np.ndarray:
-        return nearest_patch(place.local(points)[1])
+        return nearest_patch(squares.local(points)[1])
 
     def seen(field: swimsuit.Field, turned: float) -> scene.Subject:
         return scene.Subject("Suzanne", monkey.mesh, 3, field, (0.0, 0.0, 0.0), 0.36, turned)
 
-    centre, face = (0.0, 0.1, 0.0), (0.0, -0.1, 0.0)
+    centre, face = (0.02, 0.08, 0.03), (0.0, -0.1, 0.0)
     return {
-        "patches": Stage(seen(patches_at(place), 8.0), RAKING, part, 3, centre, 0.12),
-        "sunscreen": Stage(seen(sunscreen_at(place), 8.0), RAKING, whole, 1, centre, 0.12),
+        "patches": Stage(seen(patches_at(squares), 8.0), RAKING, part, 3, centre, 0.12),
+        "sunscreen": Stage(seen(sunscreen_at(sun), 8.0), RAKING, whole, 1, centre, 0.12),
         "face": Stage(seen(half, 180.0), EVEN, whole, 1, face, 0.1),
         "swimmer": Stage(monkey, scene.LAMPS, whole, 1, face, 0.1),
     }
@@ -355,12 +358,14 @@ def take(shot: Shot, quality: render.Quality, scratch: Path) -> Taken:
     return Taken(combined[..., :3], render.read_light(scratch))
 
 
-def sun_distance(white: render.Light, stage: Stage) -> np.ndarray:
+def sun_distance(white: render.Light, stage: Stage, camera: np.ndarray) -> np.ndarray:
     """Metres (rows, columns) to the edge of what the sun reaches, negative where it does not.
 
-    Not a number beyond the stage's reach.
+    Not a number beyond the stage's reach and where the skin turns away from a camera at (3,).
     """
-    seen = np.linalg.norm(white.normal, axis=-1) > 0.9
+    view = camera - white.position
+    view /= np.linalg.norm(view, axis=-1, keepdims=True)
+    seen = np.sum(view * white.normal, axis=-1) > FACING
     seen &= np.linalg.norm(white.position - np.array(stage.centre), axis=-1) < stage.reach
     points, normals = (each[seen].astype(float) for each in (white.position, white.normal))
     distance = np.full(seen.shape, np.nan)
@@ -429,7 +434,8 @@ def shoot(
                 frame = frame_of(shot.day)
                 whites[view] = render.light(bpy.context.scene, frame, quality, scratch, shot.window)
         taken = take(shot, quality, scratch)
-        distance = sun_distance(whites[view], stage)
+        camera = np.array(bpy.context.scene.camera.location)
+        distance = sun_distance(whites[view], stage, camera)
         where = regions(whites[view], distance, stage)
         np.savez(
             folder / f"{shot.name}.npz",

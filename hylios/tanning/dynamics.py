@@ -1,6 +1,7 @@
 """How a skin tans: the parameters of chapter 5 (tables 6.4 to 6.6), and minimal doses."""
 
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -81,26 +82,28 @@ def _require_decays(dynamics, own: str) -> None:
     require_range("hill_constant", dynamics.hill_constant, 1e-9, 1e12)
 
 
-PIGMENTATIONS = {
-    "low": MelaninDynamics(
-        production=(0.0100, 0.0, 0.0),
-        transfer=(0.0081, 0.0051, 0.0004),
-        extra_production=(0.0110, 0.0, 0.0),
-        extra_transfer=(0.0450, 0.0200, 0.0),
-    ),
-    "intermediate": MelaninDynamics(
-        production=(0.0080, 0.0030, 0.0),
-        transfer=(0.0051, 0.0090, 0.0064),
-        extra_production=(0.0075, 0.0150, 0.0),
-        extra_transfer=(0.0250, 0.0010, 0.0900),
-    ),
-    "high": MelaninDynamics(
-        production=(0.0080, 0.0020, 0.0),
-        transfer=(0.0018, 0.0029, 0.0003),
-        extra_production=(0.0085, 0.0065, 0.0),
-        extra_transfer=(0.0300, 0.0010, 0.0700),
-    ),
-}
+PIGMENTATIONS = MappingProxyType(
+    {
+        "low": MelaninDynamics(
+            production=(0.0100, 0.0, 0.0),
+            transfer=(0.0081, 0.0051, 0.0004),
+            extra_production=(0.0110, 0.0, 0.0),
+            extra_transfer=(0.0450, 0.0200, 0.0),
+        ),
+        "intermediate": MelaninDynamics(
+            production=(0.0080, 0.0030, 0.0),
+            transfer=(0.0051, 0.0090, 0.0064),
+            extra_production=(0.0075, 0.0150, 0.0),
+            extra_transfer=(0.0250, 0.0010, 0.0900),
+        ),
+        "high": MelaninDynamics(
+            production=(0.0080, 0.0020, 0.0),
+            transfer=(0.0018, 0.0029, 0.0003),
+            extra_production=(0.0085, 0.0065, 0.0),
+            extra_transfer=(0.0300, 0.0010, 0.0700),
+        ),
+    }
+)
 """The three sets of table 6.4 by constitutive pigmentation."""
 
 TYPICAL_PIGMENTATION = {"low": 0.0235, "intermediate": 0.10, "high": 0.25}

@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The matrices here are small: threads of BLAS would cost them ten times their own time.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: demo figures simplifications test test-all lint bench package environment
+.PHONY: demo figures simplifications agreement test test-all lint bench package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
@@ -34,6 +34,11 @@ bench: environment
 # One thread of linear algebra: its threads would count as work while they wait.
 simplifications: environment
 	@$(BIN)/python -m examples.simplifications
+
+# How well the solver without noise agrees with the random walk: hours, or with RAYS=1000000 half
+# an hour.
+agreement: environment
+	@$(BIN)/python -m examples.agreement $(if $(RAYS),--rays $(RAYS))
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

@@ -23,7 +23,21 @@ from hylios.errors import InputError
 
 ADDON = Path(__file__).parent
 HYLIOS = Path(hylios.__file__).parent
-HYLIOS_PARTS = ("__init__.py", "errors.py", "spectra", "table", "tanning", "ultraviolet")
+HYLIOS_PARTS = (
+    "__init__.py",
+    "adding",
+    "errors.py",
+    "physiology.py",
+    "quadrature.csv",
+    "quadrature.py",
+    "skin.py",
+    "specimen.py",
+    "spectra",
+    "table",
+    "tanning",
+    "tissue.py",
+    "ultraviolet",
+)
 MANIFEST = "blender_manifest.toml"
 # The first day that a zip can hold: the same sources give the same bytes.
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -53,7 +67,8 @@ def hylios_files() -> list[str]:
     """Paths within hylios of what the add-on carries of it: modules, and rooms with their data."""
     found = []
     for part in HYLIOS_PARTS:
-        files = [HYLIOS / part] if part.endswith(".py") else (HYLIOS / part).rglob("*")
+        path = HYLIOS / part
+        files = path.rglob("*") if path.is_dir() else [path]
         wanted = (path for path in files if path.is_file() and "__pycache__" not in path.parts)
         found += sorted(path.relative_to(HYLIOS).as_posix() for path in wanted)
     return found

@@ -3,7 +3,16 @@
 The model is the random walk's of `hylios.transport`, averaged instead of drawn; numpy only.
 """
 
+from hylios.adding.colours import StateColours, colours
 from hylios.adding.solver import NODES, Reflectance, solve
 from hylios.adding.spectrum import Spectrum, spectrum
 
-__all__ = ["NODES", "Reflectance", "Spectrum", "solve", "spectrum"]
+__all__ = [
+    "NODES",
+    "Reflectance",
+    "Spectrum",
+    "StateColours",
+    "colours",
+    "solve",
+    "spectrum",
+]

@@ -162,7 +162,9 @@ def response(through: Medium, thickness, extinction, kept):
     onwards = (turned * function[:, None, :]) @ turned.swapaxes(1, 2)
     back = np.linalg.solve(lower.swapaxes(1, 2), vectors * function[:, None, :])
     unit = np.eye(sums.shape[1])
-    alike = np.linalg.inv(unit + sums @ turned @ back.swapaxes(1, 2))
+    # Y by its transpose, F' A, for it is symmetric: so light that A does not absorb is not lost to
+    # the rounding of F, which grows with grazing nodes
+    alike = np.linalg.inv(unit + back @ (turned.swapaxes(1, 2) @ sums))
     opposite = np.linalg.inv(unit + onwards)
     return (
         through.basis @ (alike - opposite) @ through.inverse,

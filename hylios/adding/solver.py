@@ -14,6 +14,7 @@ from hylios.adding.optics import Optics, Pattern, figures, is_medium, optics, pa
 from hylios.adding.scattering import once_per_traversal, response, stacked
 from hylios.adding.surface import fresnel
 from hylios.adding.survival import survival_in_melanosome
+from hylios.adding.threads import one_thread
 from hylios.errors import InputError, require_range, require_whole
 from hylios.tissue import Layer, Stack
 
@@ -109,15 +110,16 @@ def solve(
     for number, (each, own) in enumerate(zip(stacks, found, strict=True)):
         groups.setdefault(pattern(each, own, nodes), []).append(number)
     shares = np.empty((3, angles.size, len(stacks)))
-    for shared, members in groups.items():
-        for first in range(0, len(members), TOGETHER):
-            some = members[first : first + TOGETHER]
-            shares[:, :, some] = _added_up(
-                [stacks[each] for each in some],
-                np.array([found[each].indices for each in some]),
-                shared,
-                [optics(found[each], shared, radians) for each in some],
-            )
+    with one_thread():
+        for shared, members in groups.items():
+            for first in range(0, len(members), TOGETHER):
+                some = members[first : first + TOGETHER]
+                shares[:, :, some] = _added_up(
+                    [stacks[each] for each in some],
+                    np.array([found[each].indices for each in some]),
+                    shared,
+                    [optics(found[each], shared, radians) for each in some],
+                )
     return Reflectance(*(shares if np.ndim(angle) else shares[:, 0]))
 
 

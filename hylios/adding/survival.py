@@ -76,6 +76,7 @@ def _table() -> tuple[np.ndarray, np.ndarray]:
     with TABLE.open(encoding="utf-8", newline="") as file:
         rows = np.array(list(csv.reader(file))[1:], dtype=float)
     lengths, weights = np.split(rows[:, 2:], 2, axis=1)
+    weights /= weights.sum(axis=1, keepdims=True)  # printed with few digits
     shape = (ASPECTS, RATIOS, POINTS)
     return lengths.reshape(shape), weights.reshape(shape)
 

@@ -34,7 +34,19 @@ LIGHT_ROOMS = (
 )
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
-NUMPY_ONLY = ("errors", "spectra", "table", "tanning", "ultraviolet")
+NUMPY_ONLY = (
+    "adding",
+    "errors",
+    "physiology",
+    "quadrature",
+    "skin",
+    "specimen",
+    "spectra",
+    "table",
+    "tanning",
+    "tissue",
+    "ultraviolet",
+)
 """What of `hylios` the add-on may use: what its wheel carries."""
 
 

@@ -1,0 +1,252 @@
+"""How well the solver without noise agrees with the random walk: `make agreement`.
+
+Reflectance at 8 degrees of S1 to S4 and of tanned skins, from 250 to 2500 nm, by both. Writes every
+pair to a CSV file, a skin at a time: after Ctrl-C, --resume goes on. The default of ten million
+rays takes hours; a tenth tells the mean as well, for the walk's own noise is known and taken off.
+"""
+
+import argparse
+import csv
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from hylios.adding import spectrum as spectrum_without_noise
+from hylios.errors import InputError, require_whole
+from hylios.files import written_beside
+from hylios.phototypes import PHOTOTYPES, phototype
+from hylios.shell import add_work_arguments, require_work, run
+from hylios.skin import Skin, skin
+from hylios.specimen import SPECIMENS, Specimen
+from hylios.transport.simulate import MOST_RAYS, Progress, spectrum
+from lut_builder.states import reachable_states, untanned_state
+
+WAVELENGTHS = np.array(
+    [250.0, 290.0, 320.0, 365.0, 420.0, 470.0, 545.0, 600.0, 700.0, 900.0, 1200.0, 1650.0, 2500.0]
+)
+"""Over the whole range; two in the blue and two in bands of blood and beyond, as colours need."""
+
+TANNED, SCHEDULES = 30, 60
+"""Tanned states in all, and how many random tans of each skin they are drawn from."""
+
+LEAST_CHANGE = 0.02
+"""Of melanin in a layer or of thickness, for a state to count as tanned."""
+
+MOST_RMS, MOST = 5e-4, 2e-3
+"""Differences that are aimed at: root mean square, and largest."""
+
+ANGLE = 8.0
+DEFAULT = Path("out/agreement.csv")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Reflectance of one skin at one wavelength, by both.
+
+    `state` is empty for S1 to S4 as they are, else melanin of basale, spinosum, granulosum and
+    thickness. `error` is the walk's standard error.
+    """
+
+    skin: str
+    state: str
+    wavelength: float
+    rays: int
+    seed: int
+    walked: float
+    error: float
+    solved: float
+
+    @property
+    def difference(self) -> float:
+        """Solved less walked."""
+        return self.solved - self.walked
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Differences of some pairs.
+
+    Attributes
+    ----------
+    rms, noise : float
+        Root mean squares of the differences and of the walk's standard errors.
+    largest : float
+    own : float
+        Root mean square difference without the walk's noise; 0 where noise explains all.
+    """
+
+    rms: float
+    noise: float
+    largest: float
+    own: float
+
+
+def agreement(pairs: Sequence[Pair]) -> Agreement:
+    """Sum up pairs, at least one."""
+    differences = np.array([each.difference for each in pairs])
+    errors = np.array([each.error for each in pairs])
+    square, noise = np.mean(differences**2), np.mean(errors**2)
+    own = np.sqrt(max(0.0, square - noise))
+    largest = np.abs(differences).max()
+    return Agreement(float(np.sqrt(square)), float(np.sqrt(noise)), float(largest), float(own))
+
+
+def skins() -> dict[str, Skin]:
+    """Those that tan: S1 to S4 and the skin types."""
+    types = {name: phototype(name).skin for name in PHOTOTYPES}
+    return {**{name: skin(each) for name, each in SPECIMENS.items()}, **types}
+
+
+def specimens(seed: int, tanned: int = TANNED) -> list[tuple[str, str, Specimen]]:
+    """Name, state and specimen of S1 to S4, and of tanned states, drawn in turn from all skins."""
+    made = [(name, "", each) for name, each in SPECIMENS.items()]
+    known = list(skins().items())
+    reached = [_tanned_states(each, seed) for _, each in known]
+    random = np.random.default_rng(seed)
+    for number in range(tanned):
+        name, each = known[number % len(known)]
+        state = random.choice(reached[number % len(known)])
+        printed = " ".join(f"{value:.6g}" for value in state)
+        made.append((name, printed, each.tanned(state[:3], state[3])))
+    return made
+
+
+def _tanned_states(made_for: Skin, seed: int) -> np.ndarray:
+    """States (N, 4) that a skin reaches and that differ from the untanned."""
+    states = reachable_states(made_for, SCHEDULES, seed)
+    change = np.abs(states / untanned_state(made_for) - 1.0).max(axis=1)
+    return states[change > LEAST_CHANGE]
+
+
+def compared(
+    name: str,
+    state: str,
+    specimen: Specimen,
+    *,
+    rays: int,
+    seed: int,
+    threads: int | None = None,
+    wavelengths: np.ndarray = WAVELENGTHS,
+    progress: Progress | None = None,
+) -> list[Pair]:
+    """Both reflectances of a specimen at wavelengths in nm."""
+    walked = spectrum(
+        specimen,
+        wavelengths,
+        angle=ANGLE,
+        rays=rays,
+        seed=seed,
+        threads=threads,
+        progress=progress,
+    )
+    solved = spectrum_without_noise(specimen, wavelengths, angle=ANGLE).total
+    columns = wavelengths, walked.total, walked.standard_error, solved
+    return [
+        Pair(name, state, float(nm), rays, seed, float(total), float(error), float(ours))
+        for nm, total, error, ours in zip(*columns, strict=True)
+    ]
+
+
+def written(pairs: Sequence[Pair], path: Path) -> None:
+    """Write pairs as CSV."""
+    names = [each.name for each in fields(Pair)]
+    with written_beside(path) as beside, beside.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, [*names, "difference"])
+        writer.writeheader()
+        writer.writerows({**asdict(each), "difference": each.difference} for each in pairs)
+
+
+def read(path: Path) -> list[Pair]:
+    """Pairs of a file that `written` wrote.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return [
+                Pair(**{each.name: each.type(row[each.name]) for each in fields(Pair)})
+                for row in csv.DictReader(file)
+            ]
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(f"{path} is no file of this command: {error!r}.") from error
+
+
+def report(pairs: Sequence[Pair]) -> str:
+    """Agreement by skin, by wavelength and of all."""
+    lines = [f"{'':<12}{'pairs':>6}{'rms':>10}{'noise':>10}{'own rms':>10}{'largest':>10}"]
+
+    def line(what: str, some: Sequence[Pair]) -> Agreement:
+        found = agreement(some)
+        numbers = (found.rms, found.noise, found.own, found.largest)
+        lines.append(f"{what:<12}{len(some):>6}" + "".join(f"{x:>10.2e}" for x in numbers))
+        return found
+
+    for nm in sorted({each.wavelength for each in pairs}):
+        line(f"{nm:g} nm", [each for each in pairs if each.wavelength == nm])
+    for name in dict.fromkeys(each.skin for each in pairs):
+        line(name, [each for each in pairs if each.skin == name])
+    if any(each.state for each in pairs):
+        line("tanned", [each for each in pairs if each.state])
+    found = line("all", pairs)
+    lines.append(
+        f"aimed at: rms {MOST_RMS:g}: {_met(found.rms <= MOST_RMS)}; largest {MOST:g}: "
+        f"{_met(found.largest <= MOST)}"
+    )
+    return "\n".join(lines)
+
+
+def _met(is_met: bool) -> str:
+    return "met" if is_met else "NOT met"
+
+
+def compare(asked: argparse.Namespace) -> None:
+    """The command."""
+    require_work(asked)
+    rays = require_whole("number of rays", asked.rays, 100, MOST_RAYS)
+    asked.output.parent.mkdir(parents=True, exist_ok=True)
+    pairs = read(asked.output) if asked.resume and asked.output.exists() else []
+    # a seed of its own for each, or all would share their noise
+    tasks = {
+        (name, state, rays, seed): each
+        for seed, (name, state, each) in enumerate(specimens(asked.seed), start=asked.seed)
+    }
+    done = {(each.skin, each.state, each.rays, each.seed) for each in pairs}
+    if not done <= tasks.keys():
+        raise InputError(f"{asked.output} is of other rays or another seed; leave out --resume.")
+    left = {key: each for key, each in tasks.items() if key not in done}
+    total = len(left) * WAVELENGTHS.size * rays
+    with tqdm(total=total, unit="ray", unit_scale=True, file=sys.stderr) as bar:
+        for (name, state, _, seed), specimen in left.items():
+            bar.set_description(f"{name} tanned" if state else name)
+            pairs += compared(
+                name,
+                state,
+                specimen,
+                rays=rays,
+                seed=seed,
+                threads=asked.threads,
+                progress=bar.update,
+            )
+            written(pairs, asked.output)
+    print(report(pairs))
+    print(f"wrote {asked.output}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m examples.agreement", description=__doc__)
+    parser.add_argument("--rays", type=int, default=10_000_000, help="for each pair")
+    parser.add_argument("--resume", action="store_true", help="keep the pairs that are there")
+    parser.add_argument("-o", "--output", type=Path, default=DEFAULT, metavar="FILE.csv")
+    add_work_arguments(parser)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(run(compare, _parser().parse_args()))

@@ -1,0 +1,113 @@
+"""Colours of a skin in its tanning states, without random numbers."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.errors import InputError
+from hylios.quadrature import skin_quadrature
+from hylios.skin import Skin
+from hylios.spectra import Figures, figures, require_wavelengths
+from hylios.tissue import stack
+
+TOGETHER = 16
+"""States solved at once: after each so many progress is told."""
+
+
+@dataclass(frozen=True)
+class StateColours:
+    """What N tanning states look like.
+
+    Attributes
+    ----------
+    subsurface, total : (N, 3) arrays
+        Linear Rec.709 under D65: of light that has been inside the skin, and of all that is
+        reflected.
+    bands : (N, B) array
+        Reflectance at single wavelengths.
+    """
+
+    subsurface: np.ndarray
+    total: np.ndarray
+    bands: np.ndarray
+
+
+def colours(
+    made_for: Skin,
+    states: np.ndarray,
+    *,
+    count: int = 8,
+    bands: Sequence[float] = (),
+    angle: float = 8.0,
+    nodes: int = NODES,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+    progress: Callable[[int], object] | None = None,
+) -> StateColours:
+    """Colours of tanning states by `hylios.adding.solve` at a few wavelengths.
+
+    Parameters
+    ----------
+    states : (N, 4) array
+        Melanin of basale, spinosum, granulosum relative to the total without sun, and thickness
+        relative to that without sun.
+    count : int
+        Wavelengths that make the colour, 4 to 16 (`hylios.quadrature.skin_quadrature`).
+    bands : sequence of float
+        Other wavelengths in nm, 250 to 2500.
+    angle, nodes
+        As in `solve`; one angle.
+    known, chosen
+        As in `hylios.tissue.stack`.
+    progress : callable, optional
+        Told, as each piece of work ends, how many states it had.
+
+    Raises
+    ------
+    InputError
+        If the states' shape or one of them, a wavelength or another argument is out of range, or
+        a state cannot be solved (`solve`).
+    """
+    states = np.asarray(states, dtype=float)
+    if states.ndim != 2 or states.shape[1] != 4:
+        raise InputError(f"tanning states have shape {states.shape}; expected (N, 4).")
+    known = known or figures()
+    colour = skin_quadrature(count)
+    asked = list(require_wavelengths(bands, known)) if len(bands) else []
+    wavelengths = [*colour.wavelengths, *asked]
+    pieces = []
+    for first in range(0, len(states), TOGETHER):
+        some = states[first : first + TOGETHER]
+        pieces.append(_solved(made_for, some, wavelengths, angle, nodes, known, chosen))
+        if progress:
+            progress(len(some))
+    empty = np.empty((0, len(wavelengths)))
+    subsurface = np.concatenate([empty, *(each.subsurface for each in pieces)])
+    total = np.concatenate([empty, *(each.total for each in pieces)])
+    return StateColours(
+        subsurface[:, :count] @ colour.weights.T,
+        total[:, :count] @ colour.weights.T,
+        total[:, count:],
+    )
+
+
+def _solved(
+    made_for: Skin,
+    states: np.ndarray,
+    wavelengths: Sequence[float],
+    angle: float,
+    nodes: int,
+    known: Figures,
+    chosen: Mapping[str, str] | None,
+) -> Reflectance:
+    """Reflectance of states at wavelengths, with arrays (N, W)."""
+    tanned = [made_for.tanned(state[:3], state[3]) for state in states]
+    stacks = [
+        stack(each, float(nm), known=known, chosen=chosen) for each in tanned for nm in wavelengths
+    ]
+    found = solve(stacks, float(angle), nodes)
+    shape = (len(states), len(wavelengths))
+    shares = (found.surface, found.subsurface, found.transmittance)
+    return Reflectance(*(each.reshape(shape) for each in shares))

@@ -22,15 +22,18 @@ USUAL_SPECIMEN = "S3"
 
 
 def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
-    """Run a command; bad input is one sentence and status 2, Ctrl-C one word and status 130."""
+    """Run a command; bad input is one sentence and status 2, Ctrl-C status 130.
+
+    Of Ctrl-C one word is said, or what the command gave the KeyboardInterrupt to say.
+    """
     try:
         command(arguments)
         sys.stdout.flush()
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("cancelled", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        print(str(interrupt) or "cancelled", file=sys.stderr)
         return 130
     except BrokenPipeError:
         _discard_output()

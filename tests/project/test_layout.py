@@ -20,6 +20,8 @@ ALLOWED = {
     "hylios/transport": {"numpy", "numba"},
     "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
+    "lut_builder/cluster.py": {"distributed", "hylios"},
+    "lut_builder/work.py": {"numpy", "threadpoolctl", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,15 +23,13 @@ from hylios.shell import (
     run,
 )
 from hylios.skin import UNTANNED
-from hylios.table import read_table
-
-if TYPE_CHECKING:
-    from lut_builder.build import Settings
+from hylios.table import INTERPOLATIONS, read_table
+from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 
 # numba, colour-science and OpenImageIO take a second or more: only the commands import them.
 
-MOST_KNOTS = 100
 LEAST_RAYS, MOST_RAYS = 100, 10**9
+MOST_DAYS = 36_500.0
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -57,10 +54,31 @@ def _parser() -> argparse.ArgumentParser:
         help="skin without sun: 5.16 as printed, melanin by the tanning set's steady state, or "
         "the specimen's own distribution",
     )
-    building.add_argument("--preset", choices=["small", "standard"], default="standard")
+    building.add_argument("--preset", choices=list(PRESETS), default="standard")
     building.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
-    building.add_argument("--step", type=float, help="spacing of visible wavelengths, nm")
-    building.add_argument("--rays", type=int, help="rays per wavelength and state")
+    building.add_argument("--wavelengths", type=int, help="from which colours are made, 4 to 16")
+    building.add_argument(
+        "--bands", help="what to hold: visible and wavelengths in nm, such as visible,365,1100"
+    )
+    building.add_argument(
+        "--profile-error", type=float, help="standard error of the cumulative diffusion profile"
+    )
+    building.add_argument(
+        "--no-profile", action="store_true", help="no diffusion profile: for renders without"
+    )
+    building.add_argument("--nodes", type=int, help="directions of the solver, 6 to 200")
+    building.add_argument("--interpolation", choices=INTERPOLATIONS, help="between the knots")
+    building.add_argument("--half", action="store_true", help="store numbers of 16 bits")
+    building.add_argument(
+        "--schedule",
+        type=Path,
+        metavar="FILE.csv",
+        help="compute only what these doses lead to: hour,melanogenesis_sed,thickening_sed, as "
+        "`hylios dose` prints and the add-on exports",
+    )
+    building.add_argument(
+        "--days", type=float, default=60.0, help="that the schedule's scene lasts (60)"
+    )
     building.add_argument("--force", action="store_true", help="replace an existing file")
     building.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.exr")
 
@@ -71,64 +89,78 @@ def _parser() -> argparse.ArgumentParser:
     checking = commands.add_parser("check", help="compare a table with direct simulation")
     checking.set_defaults(command=_check)
     checking.add_argument("table", type=Path)
-    checking.add_argument("--states", type=int, default=20, help="states between the knots")
-    checking.add_argument("--rays", type=int, help="rays per wavelength (default: the table's)")
+    checking.add_argument("--states", type=int, default=200, help="between the knots (200)")
+    checking.add_argument(
+        "--rays",
+        type=int,
+        default=0,
+        help="per wavelength of a random walk (default: the solver, without noise)",
+    )
     add_work_arguments(checking)
     return parser
 
 
 @contextmanager
-def _progress(total: int, what: str) -> Iterator[Callable[[int], object]]:
+def _progress(total: float, what: str, unit: str) -> Iterator[Callable[[float], object]]:
     from tqdm import tqdm
 
-    with tqdm(total=total, desc=what, unit="ray", unit_scale=True, mininterval=0.5) as bar:
-        yield bar.update
+    with tqdm(total=total, desc=what, unit=unit, mininterval=0.5) as bar:
+        yield lambda size: bar.update(min(size, total - bar.n))  # no rounding beyond the end
 
 
-def _settings(asked: argparse.Namespace) -> "Settings":
-    from lut_builder.build import PRESETS, visible_wavelengths
-
+def _settings(asked: argparse.Namespace) -> Settings:
     settings = PRESETS[asked.preset]
     if asked.knots is not None:
         counts = [number(part, "number of knots") for part in asked.knots.split(",")]
-        require_whole("number of axes", len(counts), 1, 4)
         knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
         settings = replace(settings, knots=tuple(knots))
-    if asked.step is not None:
-        step = require_range("step", asked.step, 1.0, 100.0, "nm")
-        settings = replace(settings, visible=visible_wavelengths(step))
-    if asked.rays is not None:
-        rays = require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
-        settings = replace(settings, rays=rays)
-    return settings
+    if asked.wavelengths is not None:
+        settings = replace(settings, colour_wavelengths=asked.wavelengths)
+    if asked.bands is not None:
+        bands = [each.strip() for each in asked.bands.split(",") if each.strip()]
+        shown = settings.colour_wavelengths if VISIBLE in bands else 0
+        single = tuple(number(each, "a band") for each in bands if each != VISIBLE)
+        settings = replace(settings, colour_wavelengths=shown, bands=single)
+    if asked.profile_error is not None:
+        settings = replace(settings, profile_error=asked.profile_error)
+    if asked.no_profile:
+        settings = replace(settings, profile_error=0.0)
+    if asked.nodes is not None:
+        settings = replace(settings, nodes=asked.nodes)
+    if asked.interpolation is not None:
+        settings = replace(settings, interpolation=asked.interpolation)
+    return replace(settings, half=asked.half or settings.half)
 
 
 def _build(asked: argparse.Namespace) -> None:
     require_target(asked.output, (".exr",), asked.force)
     require_work(asked)
+    settings = _settings(asked)
     _, known, chosen = chosen_skin(asked)
     made_for = chosen_tanning_skin(asked, asked.untanned)
 
-    from lut_builder.build import build
+    from lut_builder.build import assembled, in_threads, requested
     from lut_builder.exr import write_table
-    from lut_builder.states import choose_axes
+    from lut_builder.pieces import pieces
+    from lut_builder.schedule import reached_states, read_schedule
 
-    settings = _settings(asked)
-    settings = replace(settings, knots=choose_axes(made_for, settings.knots).shape)
-    with _progress(settings.total_rays, f"table of {settings.states} states") as progress:
-        table = build(
-            made_for,
-            settings,
-            seed=asked.seed,
-            threads=asked.threads,
-            known=known,
-            chosen=chosen,
-            progress=progress,
-        )
-    write_table(asked.output, table)
+    reached = None
+    if asked.schedule is not None:
+        days = require_range("days of the scene", asked.days, 0.0, MOST_DAYS)
+        reached = reached_states(made_for, read_schedule(asked.schedule), days)
+    request = requested(
+        made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
+    )
+    wanted, knots = len(request.states), request.needed.size
+    if reached is not None:
+        print(f"the scene needs {wanted} of {knots} states: {1.0 - wanted / knots:.0%} saved")
+    total = sum(piece.size for piece in pieces(request))
+    with _progress(total, f"table of {wanted} states", "s") as progress:
+        table = assembled(request, in_threads(request, asked.threads, progress))
+    write_table(asked.output, table, half=settings.half)
     cut = table.provenance["states_with_melanin_cut"]
     if cut:
-        print(f"note: {cut} of {settings.states} states would overfill a layer with melanin; cut")
+        print(f"note: {cut} of {wanted} states would overfill a layer with melanin; cut")
     print(f"wrote {asked.output}: {os.path.getsize(asked.output) / 1000:.1f} KB")
 
 
@@ -155,31 +187,30 @@ def _info(asked: argparse.Namespace) -> None:
 def _check(asked: argparse.Namespace) -> None:
     require_whole("number of states", asked.states, 1, 10_000)
     require_work(asked)
+    if asked.rays:
+        require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
 
-    from lut_builder.check import check, settings_of
+    from lut_builder.check import check
 
     table = read_table(asked.table)
-    settings = settings_of(table)
-    rays = settings.rays if asked.rays is None else asked.rays
-    require_whole("number of rays", rays, LEAST_RAYS, MOST_RAYS)
-    total = asked.states * settings.wavelengths.size * rays
-    with _progress(total, f"{asked.states} states directly") as progress:
+    with _progress(asked.states, "states directly", "state") as progress:
         result = check(
             table,
             count=asked.states,
-            rays=rays,
+            rays=asked.rays,
             seed=asked.seed,
             threads=asked.threads,
             progress=progress,
         )
     print(f"states: {len(result.differences)}, reachable, none of them a knot")
-    print(f"mean CIEDE2000 between table and simulation: {result.differences.mean():.3f}")
+    print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
     print(f"largest: {result.differences.max():.3f}")
-    print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
-    print(
-        "share of the mean squared difference that noise explains: "
-        f"{result.noise_share:.0%} (over 100 % by chance)"
-    )
+    if result.noise is not None:
+        print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
+        print(
+            "share of the mean squared difference that noise explains: "
+            f"{result.noise_share:.0%} (over 100 % by chance)"
+        )
 
 
 if __name__ == "__main__":

@@ -6,9 +6,9 @@ from dataclasses import asdict
 from os import cpu_count
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 import hylios
-from hylios.adding.ultraviolet import tabulated
 from hylios.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.profile import burley_width
 from hylios.quadrature import skin_quadrature
@@ -48,6 +48,11 @@ def requested(
         Spectral figures and readings, the project's own by default.
     reached : (N, 4) array, optional
         Tanning states that a scene leads through; knots that they do not need are left out.
+
+    Raises
+    ------
+    InputError
+        If the skin has a layer without melanin (`lut_builder.states.untanned_state`).
     """
     axes = choose_axes(made_for, settings.knots)
     needed = np.ones(axes.shape, bool)
@@ -71,7 +76,8 @@ def build(
 ) -> SkinTable:
     """Build a skin's table on this machine; the same whatever the number of threads.
 
-    Parameters as in `requested` and `in_threads`.
+    Parameters as in `requested` and `in_threads`, errors as in `requested` and
+    `lut_builder.pieces.computed`.
     """
     request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
     return assembled(request, in_threads(request, threads, progress))
@@ -80,54 +86,62 @@ def build(
 def in_threads(
     request: Request, threads: int | None = None, progress: Progress | None = None
 ) -> Results:
-    """All pieces of a request, on threads of this process; all cores by default."""
+    """All pieces of a request, on threads of this process; all cores by default.
+
+    On an exception, such as Ctrl-C, it does not wait for the pieces that are being computed.
+    """
     results = {}
-    with ThreadPoolExecutor(threads or cpu_count() or 1) as pool:
-        waiting = {pool.submit(computed, request, each): each for each in pieces(request)}
-        try:
+    pool = ThreadPoolExecutor(threads or cpu_count() or 1)
+    try:
+        # The matrices are small: threads of linear algebra cost more than they bring.
+        with threadpool_limits(1, "blas"):
+            waiting = {pool.submit(computed, request, each): each for each in pieces(request)}
             for future in as_completed(waiting):
                 results[waiting[future].name] = future.result()
                 if progress is not None:
                     progress(waiting[future].size)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
     return results
 
 
 def assembled(request: Request, results: Results) -> SkinTable:
     """The table of a request from the results of its pieces."""
-    parts = pieces(request)
-    settings, states = request.settings, request.states
+    settings, parts = request.settings, pieces(request)
     planes = _reflectance_planes(settings, parts, results)
     if settings.has_profile:
         planes.update(_profile_planes(settings, parts, results))
-    cut = sum(request.skin.overfull(state[:3], state[3]) for state in states)
-    nearest = _nearest_computed(request)
-    planes = {name: plane[nearest] for name, plane in planes.items()}
     if not request.needed.all():
+        nearest = _nearest_computed(request.needed)
+        planes = {name: plane[nearest] for name, plane in planes.items()}
         planes["computed"] = request.needed[..., None].astype(float)
+    cut = sum(request.skin.overfull(state[:3], state[3]) for state in request.states)
     return SkinTable(
         axes=request.axes,
         planes={name: plane.reshape(*request.axes.shape, -1) for name, plane in planes.items()},
-        provenance={**provenance(request), "states_with_melanin_cut": int(cut)},
+        provenance={
+            **provenance(request),
+            "absorptance": _absorptance(results["absorptance"]),
+            "states_with_melanin_cut": int(cut),
+        },
         interpolation=settings.interpolation,
     )
 
 
-def _nearest_computed(request: Request) -> np.ndarray:
+def _nearest_computed(needed: np.ndarray) -> np.ndarray:
     """For each knot the number of the computed state that stands for it, its own or the nearest."""
-    places = np.argwhere(np.ones(request.axes.shape, bool))
-    computed_places = np.argwhere(request.needed)
-    apart = ((places[:, None] - computed_places[None]) ** 2).sum(axis=-1)
-    return apart.argmin(axis=1)
+    known = np.argwhere(needed)
+    return np.array(
+        [((known - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
+    )
 
 
 def _reflectance_planes(
     settings: Settings, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
     """Colours and bands, (states, components)."""
-    found = [results[each.name] for each in parts if each.kind == "colours"]
+    colours = sorted((each for each in parts if each.kind == "colours"), key=lambda p: p.first)
+    found = [results[each.name] for each in colours]
     subsurface = np.concatenate([each["subsurface"] for each in found])
     total = subsurface + np.concatenate([each["surface"] for each in found])
     planes = {}
@@ -154,7 +168,8 @@ def _profile_planes(
     from hylios.transport.reuse import Profiles  # numba
     from hylios.transport.simulate import DISTANCE_EDGES
 
-    found = [results[each.name] for each in parts if each.kind == "profile"]
+    walked = sorted((each for each in parts if each.kind == "profile"), key=lambda p: p.wavelength)
+    found = [results[each.name] for each in walked]
     light = np.stack([each["light"] for each in found], axis=1)
     squares = np.stack([each["squares"] for each in found], axis=1)
     widths, errors, samples = [], [], []
@@ -183,7 +198,7 @@ def _profile_planes(
 
 
 def provenance(request: Request) -> dict:
-    """What a table's header says of how it was made."""
+    """What a table's header says of how it was asked to be made."""
     made_for, settings = request.skin, request.settings
     own = figures()
     known, decided = request.known or own, readings(request.chosen)
@@ -198,9 +213,11 @@ def provenance(request: Request) -> dict:
         "mmd_sed": made_for.mmd,
         "med_sed": made_for.med,
         "solver": f"adding, {settings.nodes} directions; profiles by random walk on shared paths",
-        "settings": asdict(settings),
+        "settings": {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in asdict(settings).items()
+        },
         "readings": dict(decided),
-        "absorptance": _absorptance(made_for.specimen, known, decided),
         "own_figures": {
             name: known[name].source for name in FIGURES if known[name] is not own[name]
         },
@@ -214,12 +231,11 @@ def provenance(request: Request) -> dict:
     }
 
 
-def _absorptance(specimen: Specimen, known: Figures, decided: Mapping[str, str]) -> dict:
+def _absorptance(found: Mapping[str, np.ndarray]) -> dict:
     """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
-    found = tabulated(specimen, known=known, chosen=decided)
     return {
-        "wavelengths_nm": found.wavelengths.tolist(),
-        "values": np.round(found.values, 5).tolist(),
+        "wavelengths_nm": found["wavelengths"].tolist(),
+        "values": np.round(found["values"], 5).tolist(),
     }
 
 

@@ -1,6 +1,7 @@
 """Checking a table: states between its knots, computed directly."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from hylios.errors import InputError
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
+from hylios.spectra import Figures, figures, replaced
 from hylios.table import SkinTable, melanin_dynamics
 from hylios.transport.simulate import Progress
 from hylios.transport.simulate import spectrum as walked
@@ -101,6 +103,20 @@ def settings_of(table: SkinTable) -> Settings:
         raise InputError(f"the table does not say how it was built: {error}") from error
 
 
+def figures_of(table: SkinTable) -> Figures:
+    """The spectral figures that a table was built with; the user's own are read again.
+
+    Raises
+    ------
+    InputError
+        If one cannot be read.
+    """
+    known = figures()
+    for name, path in table.provenance.get("own_figures", {}).items():
+        known = replaced(known, name, Path(path))
+    return known
+
+
 def check(
     table: SkinTable,
     *,
@@ -124,13 +140,13 @@ def check(
     Raises
     ------
     InputError
-        If the table's header does not say for what skin and how it was built, or the table has no
-        colour.
+        If the table's header does not say for what skin and how it was built, a figure of the
+        user's own that it names cannot be read, or the table has no colour or too few states.
     """
-    made_for = skin_of(table)
+    made_for, known = skin_of(table), figures_of(table)
+    chosen = table.provenance.get("readings")
     random = np.random.default_rng(seed)
     states = random.choice(_between_knots(table, reachable_states(made_for, 100, seed)), count)
-    chosen = table.provenance.get("readings")
     looked_up = table.plane("total_colour", states)
     differences, noise = [], []
     for index, (state, seen) in enumerate(zip(states, looked_up, strict=True)):
@@ -145,6 +161,7 @@ def check(
                 rays=rays,
                 seed=own_seed,
                 threads=threads,
+                known=known,
                 chosen=chosen,
             )
             direct = few.weights @ found.total
@@ -152,7 +169,7 @@ def check(
             draws = random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS)
             noise.append(difference(direct + draws, np.broadcast_to(direct, draws.shape)))
         else:
-            found = solved(specimen, FINE, angle=ANGLE, chosen=chosen)
+            found = solved(specimen, FINE, angle=ANGLE, known=known, chosen=chosen)
             direct = rec709_weights(FINE) @ found.total
         differences.append(difference(seen, direct))
         if progress is not None:
@@ -161,9 +178,14 @@ def check(
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
-    """Those of the states (N, 4) that are no knot of the table."""
+    """Those of the states (N, 4) that are no knot of the table and were not left out of it."""
     knots = np.log(table.axes.knot_states().reshape(-1, 4))
     apart = np.full(len(states), np.inf)
     for knot in knots:
         apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))
-    return states[apart > 1e-6]
+    held = apart > 1e-6
+    if "computed" in table.planes:
+        held &= table.plane("computed", states)[:, 0] > 1.0 - 1e-6
+    if not held.any():
+        raise InputError("the table has no state between its knots that could be checked.")
+    return states[held]

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.errors import require_range, require_whole
+from hylios.errors import require_whole
 from hylios.files import require_target
+from hylios.quadrature import FEWEST, MOST
 from hylios.shell import (
     add_skin_arguments,
     add_tanning_arguments,
@@ -28,8 +29,13 @@ from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 
 # numba, colour-science and OpenImageIO take a second or more: only the commands import them.
 
+ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
+"""Planes that say how good the others are."""
+
 LEAST_RAYS, MOST_RAYS = 100, 10**9
-MOST_DAYS = 36_500.0
+
+SECONDS_LEFT = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}, {remaining} left"
+"""Of a bar whose steps are seconds by an estimate, which is not worth printing."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -73,8 +79,8 @@ def _parser() -> argparse.ArgumentParser:
         "--schedule",
         type=Path,
         metavar="FILE.csv",
-        help="compute only what these doses lead to: hour,melanogenesis_sed,thickening_sed, as "
-        "`hylios dose` prints and the add-on exports",
+        help="compute only the states that these doses lead to; CSV with the columns hour, "
+        "melanogenesis_sed, thickening_sed, as `hylios dose` prints and the add-on exports",
     )
     building.add_argument(
         "--days", type=float, default=60.0, help="that the schedule's scene lasts (60)"
@@ -86,7 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     info.set_defaults(command=_info)
     info.add_argument("table", type=Path)
 
-    checking = commands.add_parser("check", help="compare a table with direct simulation")
+    checking = commands.add_parser("check", help="compare a table with the model between knots")
     checking.set_defaults(command=_check)
     checking.add_argument("table", type=Path)
     checking.add_argument("--states", type=int, default=200, help="between the knots (200)")
@@ -101,10 +107,10 @@ def _parser() -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _progress(total: float, what: str, unit: str) -> Iterator[Callable[[float], object]]:
+def _progress(total: float, what: str) -> Iterator[Callable[[float], object]]:
     from tqdm import tqdm
 
-    with tqdm(total=total, desc=what, unit=unit, mininterval=0.5) as bar:
+    with tqdm(total=total, desc=what, bar_format=SECONDS_LEFT, mininterval=0.5) as bar:
         yield lambda size: bar.update(min(size, total - bar.n))  # no rounding beyond the end
 
 
@@ -115,11 +121,12 @@ def _settings(asked: argparse.Namespace) -> Settings:
         knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
         settings = replace(settings, knots=tuple(knots))
     if asked.wavelengths is not None:
-        settings = replace(settings, colour_wavelengths=asked.wavelengths)
+        count = require_whole("number of wavelengths", asked.wavelengths, FEWEST, MOST)
+        settings = replace(settings, colour_wavelengths=count)
     if asked.bands is not None:
         bands = [each.strip() for each in asked.bands.split(",") if each.strip()]
         shown = settings.colour_wavelengths if VISIBLE in bands else 0
-        single = tuple(number(each, "a band") for each in bands if each != VISIBLE)
+        single = tuple(number(each, "band") for each in bands if each != VISIBLE)
         settings = replace(settings, colour_wavelengths=shown, bands=single)
     if asked.profile_error is not None:
         settings = replace(settings, profile_error=asked.profile_error)
@@ -146,8 +153,7 @@ def _build(asked: argparse.Namespace) -> None:
 
     reached = None
     if asked.schedule is not None:
-        days = require_range("days of the scene", asked.days, 0.0, MOST_DAYS)
-        reached = reached_states(made_for, read_schedule(asked.schedule), days)
+        reached = reached_states(made_for, read_schedule(asked.schedule), asked.days)
     request = requested(
         made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
     )
@@ -155,7 +161,7 @@ def _build(asked: argparse.Namespace) -> None:
     if reached is not None:
         print(f"the scene needs {wanted} of {knots} states: {1.0 - wanted / knots:.0%} saved")
     total = sum(piece.size for piece in pieces(request))
-    with _progress(total, f"table of {wanted} states", "s") as progress:
+    with _progress(total, f"table of {wanted} states") as progress:
         table = assembled(request, in_threads(request, asked.threads, progress))
     write_table(asked.output, table, half=settings.half)
     cut = table.provenance["states_with_melanin_cut"]
@@ -176,6 +182,10 @@ def _info(asked: argparse.Namespace) -> None:
         else:
             print(f"{name}: {value}")
     print(f"planes: {', '.join(table.planes)}")
+    for name in ERRORS:
+        if name in table.planes:
+            values = table.planes[name]
+            print(f"{name}: {values.min():.3g} to {values.max():.3g}, mean {values.mean():.3g}")
     directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
     for axis, (direction, knots) in enumerate(directions, start=1):
         print(
@@ -193,7 +203,7 @@ def _check(asked: argparse.Namespace) -> None:
     from lut_builder.check import check
 
     table = read_table(asked.table)
-    with _progress(asked.states, "states directly", "state") as progress:
+    with _progress(asked.states, "states directly") as progress:
         result = check(
             table,
             count=asked.states,

@@ -19,7 +19,7 @@ ALLOWED = {
     "hylios/table": {"numpy"},
     "hylios/transport": {"numpy", "numba"},
     "hylios/ultraviolet": {"numpy"},
-    "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
+    "lut_builder": {"numpy", "OpenImageIO", "threadpoolctl", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }

@@ -23,7 +23,15 @@ from hylios.errors import InputError
 
 ADDON = Path(__file__).parent
 HYLIOS = Path(hylios.__file__).parent
-HYLIOS_PARTS = ("__init__.py", "errors.py", "spectra", "table", "tanning", "ultraviolet")
+HYLIOS_PARTS = (
+    "__init__.py",
+    "errors.py",
+    "files.py",
+    "spectra",
+    "table",
+    "tanning",
+    "ultraviolet",
+)
 MANIFEST = "blender_manifest.toml"
 # The first day that a zip can hold: the same sources give the same bytes.
 EPOCH = (1980, 1, 1, 0, 0, 0)

@@ -66,8 +66,7 @@ def test_widths_are_those_of_a_random_walk(small):
         within = np.cumsum(light) / light.sum()
         width = small.planes["profile_width"][place][channel]
         own = burley_width(DISTANCE_EDGES, np.maximum(light, 0.0))
-        ends = np.append(DISTANCE_EDGES[1:], np.inf)
-        apart = abs(np.interp(width, ends[:-1], within[:-1]) - np.interp(own, ends[:-1], within[:-1]))
+        apart = np.ptp(np.interp([width, own], DISTANCE_EDGES[1:], within[:-1]))
         error = small.planes["profile_error"][place][channel]
         assert 0.0 < error < 0.1
         assert apart < 4.0 * np.hypot(error, 1e-3)
@@ -177,8 +176,8 @@ def test_a_schedule_through_the_shell(tmp_path, capsys):
     read = read_schedule(sun)
     assert read.hours.tolist() == [0, 30]
     assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
-    quick = "--knots 9,5 --wavelengths 4 --bands visible --no-profile --days 10 --interpolation linear"
-    command = f"build --specimen S3 --schedule {sun} {quick} -o {path}"
+    quick = "--knots 9,5 --wavelengths 4 --bands visible --no-profile --interpolation linear"
+    command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
     assert main(command.split()) == 0
     said = capsys.readouterr().out
     count = read_table(path).provenance["states_computed"]

@@ -34,7 +34,7 @@ LIGHT_ROOMS = (
 )
 """Rooms of `hylios` that may lead to numba or colour-science."""
 
-NUMPY_ONLY = ("errors", "spectra", "table", "tanning", "ultraviolet")
+NUMPY_ONLY = ("errors", "files", "spectra", "table", "tanning", "ultraviolet")
 """What of `hylios` the add-on may use: what its wheel carries."""
 
 

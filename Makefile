@@ -43,7 +43,7 @@ agreement: environment
 package: environment
 	@$(BIN)/python -m blender_addon.package
 
-# The tables that the add-on carries; each takes minutes.
+# The tables that the add-on carries; each takes seconds, of dark skin a minute.
 TABLES := I II III IV V VI S1 S2 S3 S4
 .PHONY: tables
 tables: environment

@@ -1,8 +1,8 @@
 """Skin that tans over the timeline, in Blender.
 
-Imports go one way: panels -> operators -> apply -> tables, tan, images, nodes, timeline -> doses ->
-hylios. `tan` and `doses` are numpy only; what Apply leaves in the scene needs neither this add-on
-nor scripts.
+Imports go one way: panels -> operators -> schedule -> apply -> tables, tan, images, nodes, timeline
+-> doses -> hylios. `tan` and `doses` are numpy only; what Apply leaves in the scene needs neither
+this add-on nor scripts.
 """
 
 import bpy

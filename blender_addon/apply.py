@@ -22,7 +22,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     InputError
         If the object cannot carry a tan, or a setting or the table cannot be used.
     """
-    _check_object(obj)
+    check_object(obj)
     settings = obj.skin_tan
     _check_mask(obj, settings.mask_attribute)
     check_days(settings.first_day, settings.last_day)
@@ -38,11 +38,15 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         last_day=settings.last_day,
     )
 
-    sampled = nodes.Sampled(
-        colour=images.packed_image(_name("Skin Tan Colour", obj), result.colour, is_colour=True),
-        profile_width=images.packed_image(
+    colour = images.packed_image(_name("Skin Tan Colour", obj), result.colour, is_colour=True)
+    width = None
+    if result.profile_width is not None:
+        width = images.packed_image(
             _name("Skin Tan Width", obj), result.profile_width, is_colour=False
-        ),
+        )
+    sampled = nodes.Sampled(
+        colour=colour,
+        profile_width=width,
         tan=result,
         mask_attribute=settings.mask_attribute,
         scene_unit=_scene_unit(scene),
@@ -55,7 +59,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         (settings.first_day, settings.last_day),
         (settings.first_frame, settings.last_frame),
     )
-    return _assign(obj, material) + _late_exposures(settings)
+    said = _assign(obj, material) + _late_exposures(settings)
+    return said if width is not None else f"{said} Its table has no profile: no subsurface."
 
 
 def minimal_doses(settings, provenance: dict) -> tables.MinimalDoses:
@@ -71,7 +76,8 @@ def minimal_doses(settings, provenance: dict) -> tables.MinimalDoses:
     return tables.minimal_doses(provenance)
 
 
-def _check_object(obj) -> None:
+def check_object(obj) -> None:
+    """Raise InputError unless an object can carry a tan."""
     if obj is None:
         raise InputError("No object is active; select a mesh object.")
     if obj.type != "MESH":

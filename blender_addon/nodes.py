@@ -8,9 +8,8 @@ import bpy
 from .tan import Tan
 
 DAY_PROPERTY = "tan_day"
-# Cycles' Burley profile has the width d = radius / (4 pi 1.04).
-RADIUS_PER_WIDTH = 4.0 * math.pi * 1.04
-METRES_PER_MILLIMETRE = 0.001
+# Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
+RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
 
 
 @dataclass(frozen=True)
@@ -18,11 +17,11 @@ class Sampled:
     """The two images of a tan, and what their axes mean.
 
     `scene_unit` is the length of one scene unit in metres. Without a mask attribute every place
-    gets the full dose.
+    gets the full dose; without an image of widths light does not scatter below the surface.
     """
 
     colour: bpy.types.Image
-    profile_width: bpy.types.Image
+    profile_width: bpy.types.Image | None
     tan: Tan
     mask_attribute: str
     scene_unit: float
@@ -69,28 +68,34 @@ def _fill(group, sampled: Sampled) -> None:
     links.new(up.outputs["Result"], place.inputs["Y"])
 
     colour = _table(group, sampled.colour, place, label="Colour", location=(-400, 250))
-    width = _table(
-        group, sampled.profile_width, place, label="Profile width (mm)", location=(-400, -50)
-    )
-    scale = _node(group, "ShaderNodeValue", label="Width to radius", location=(-350, -350))
-    scale.outputs[0].default_value = RADIUS_PER_WIDTH * METRES_PER_MILLIMETRE / sampled.scene_unit
-
     given = _node(group, "NodeGroupInput", location=(-400, 450))
     skin = _node(group, "ShaderNodeBsdfPrincipled", label="Skin", location=(-50, 300))
     skin.subsurface_method = "BURLEY"
     sockets = {socket.identifier: socket for socket in skin.inputs}
-    sockets["Subsurface Weight"].default_value = 1.0
+    sockets["Subsurface Weight"].default_value = 0.0
     sockets["IOR"].default_value = 1.4
     links.new(colour.outputs["Color"], sockets["Base Color"])
-    links.new(width.outputs["Color"], sockets["Subsurface Radius"])
-    links.new(scale.outputs[0], sockets["Subsurface Scale"])
     links.new(given.outputs["Roughness"], sockets["Roughness"])
     links.new(given.outputs["Specular"], sockets["Specular IOR Level"])
 
     result = _node(group, "NodeGroupOutput", location=(300, 300))
     links.new(skin.outputs["BSDF"], result.inputs["Surface"])
     links.new(colour.outputs["Color"], result.inputs["Colour"])
-    links.new(width.outputs["Color"], result.inputs["Profile Width"])
+    if sampled.profile_width is not None:
+        width = _table(
+            group, sampled.profile_width, place, label="Profile width (mm)", location=(-400, -50)
+        )
+        _scatter_below(group, sockets, width, RADIUS_PER_MILLIMETRE / sampled.scene_unit)
+        links.new(width.outputs["Color"], result.inputs["Profile Width"])
+
+
+def _scatter_below(group, sockets, width, radius: float) -> None:
+    """Subsurface scattering with so many scene units of radius to a millimetre of width."""
+    scale = _node(group, "ShaderNodeValue", label="Width to radius", location=(-350, -350))
+    scale.outputs[0].default_value = radius
+    sockets["Subsurface Weight"].default_value = 1.0
+    group.links.new(width.outputs["Color"], sockets["Subsurface Radius"])
+    group.links.new(scale.outputs[0], sockets["Subsurface Scale"])
 
 
 def _node(group, kind: str, *, label: str = "", location: tuple[int, int]):

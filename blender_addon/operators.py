@@ -1,10 +1,12 @@
 """What the buttons do."""
 
 import bpy
+from bpy_extras.io_utils import ExportHelper
 
 from hylios.errors import InputError
 
 from .apply import apply_tan
+from .schedule import export_schedule
 
 
 def _has_settings(context) -> bool:
@@ -62,4 +64,30 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
         return {"FINISHED"}
 
 
-CLASSES = (SKIN_TAN_OT_add_exposure, SKIN_TAN_OT_remove_exposure, SKIN_TAN_OT_apply)
+class SKIN_TAN_OT_export_schedule(bpy.types.Operator, ExportHelper):  # noqa: N801
+    bl_idname = "skin_tan.export_schedule"
+    bl_label = "Export Schedule"
+    bl_description = "Write the times in the sun to a file, for a table of what they lead to alone"
+    filename_ext = ".csv"
+    filter_glob: bpy.props.StringProperty(default="*.csv", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return _has_settings(context)
+
+    def execute(self, context):
+        try:
+            message = export_schedule(context.object, self.filepath)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, message)
+        return {"FINISHED"}
+
+
+CLASSES = (
+    SKIN_TAN_OT_add_exposure,
+    SKIN_TAN_OT_remove_exposure,
+    SKIN_TAN_OT_apply,
+    SKIN_TAN_OT_export_schedule,
+)

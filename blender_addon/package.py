@@ -27,6 +27,7 @@ HYLIOS_PARTS = (
     "__init__.py",
     "adding",
     "errors.py",
+    "files.py",
     "physiology.py",
     "quadrature.csv",
     "quadrature.py",

@@ -56,6 +56,7 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         row = layout.row()
         row.scale_y = 1.5
         row.operator("skin_tan.apply", icon="MATERIAL")
+        layout.operator("skin_tan.export_schedule", icon="EXPORT")
         if DAY_PROPERTY in obj:
             layout.label(text=f"This frame shows day {obj[DAY_PROPERTY]:.1f}", icon="TIME")
 

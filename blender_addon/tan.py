@@ -17,6 +17,9 @@ COLUMNS = 512
 HOURS_PER_ROW = 6.0
 ROWS_LIMIT = 1024
 
+COLOUR, WIDTH, COMPUTED = "subsurface_colour", "profile_width", "computed"
+COMPUTED_TOLERANCE = 1e-6
+
 
 @dataclass(frozen=True)
 class Tan:
@@ -26,15 +29,15 @@ class Tan:
     ----------
     colour : (rows, columns, 3) float32 array
         Linear Rec.709 albedo of the light that has been inside the skin.
-    profile_width : (rows, columns, 3) float32 array
-        Width d in mm of Burley's diffusion profile in red, green and blue.
+    profile_width : (rows, columns, 3) float32 array or None
+        Width d in mm of Burley's diffusion profile in red, green and blue, if the table has it.
     first_day, last_day : float
         Times of the first and last row; the rows between are evenly spaced. Columns are evenly
         spaced over shares from 0 to 1.
     """
 
     colour: np.ndarray
-    profile_width: np.ndarray
+    profile_width: np.ndarray | None
     first_day: float
     last_day: float
 
@@ -63,8 +66,10 @@ def tan(
     Raises
     ------
     InputError
-        If a day is out of range, or if the table does not say how its skin makes melanin.
+        If a day is out of range, or if the table does not say how its skin makes melanin, has no
+        colour for a shader, or was built for a schedule that leads elsewhere.
     """
+    _check_planes(table)
     check_days(first_day, last_day)
     rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
     share = np.linspace(0.0, 1.0, COLUMNS)[:, None]
@@ -75,14 +80,28 @@ def tan(
         mmd=mmd,
         med=med,
     )
-    planes = ("subsurface_colour", "profile_width")
+    planes = [name for name in (COLOUR, WIDTH, COMPUTED) if name in table.planes]
     appearance = table.lookup(np.moveaxis(states, 1, 0), planes)
+    if COMPUTED in appearance and appearance[COMPUTED].min() < 1.0 - COMPUTED_TOLERANCE:
+        raise InputError(
+            "the table was built for another schedule of sun, which does not lead where this one "
+            "does; build it with this schedule (Export Schedule) or with none."
+        )
+    width = appearance.get(WIDTH)
     return Tan(
-        colour=appearance["subsurface_colour"].astype(np.float32),
-        profile_width=appearance["profile_width"].astype(np.float32),
+        colour=appearance[COLOUR].astype(np.float32),
+        profile_width=None if width is None else width.astype(np.float32),
         first_day=first_day,
         last_day=last_day,
     )
+
+
+def _check_planes(table: SkinTable) -> None:
+    if COLOUR not in table.planes:
+        raise InputError(
+            f"the table has no plane {COLOUR}, which the skin's material needs; it has "
+            f"{', '.join(table.planes)}."
+        )
 
 
 def check_days(first_day: float, last_day: float) -> None:

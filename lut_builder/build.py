@@ -1,138 +1,66 @@
-"""Building a table: the light model at every knot of a skin's tanning states."""
+"""Putting a table together from its pieces."""
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import asdict
+from os import cpu_count
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 import hylios
-from hylios.adding.ultraviolet import tabulated
-from hylios.colour import rec709_weights
 from hylios.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.profile import burley_width
+from hylios.quadrature import skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
 from hylios.spectra import Figures, estimates_within, figures
-from hylios.table import PLANES, SkinTable, described_dynamics
+from hylios.table import SkinTable, described_dynamics
 from hylios.tissue import FIGURES, readings
-from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
-from lut_builder.states import choose_axes
+from lut_builder.pieces import ANGLE, Piece, Request, computed, pieces, wavelengths
+from lut_builder.settings import Settings
+from lut_builder.states import choose_axes, needed_knots
 
-BANDS_NM = (365.0, 1100.0, 1650.0)
-"""The thesis's wavelengths in the ultraviolet and the infrared (figures 6.8 to 6.11)."""
+SOLVER_ERROR = 3e-4
+"""Of a reflectance by `hylios.adding`, rms against the random walk."""
 
-ANGLE = 8.0
-"""Of incidence, in degrees, as reflectance is measured."""
+Progress = Callable[[float], object]
+"""Told the size of each piece as it ends."""
 
-
-@dataclass(frozen=True)
-class Settings:
-    """How accurately a table is built.
-
-    Attributes
-    ----------
-    knots : tuple of int
-        Numbers of knots on the principal axes of the tanning states.
-    visible : tuple of float
-        Ascending wavelengths in nm that make the colour.
-    rays : int
-        Per wavelength and state.
-    """
-
-    knots: tuple[int, ...]
-    visible: tuple[float, ...]
-    rays: int
-
-    @property
-    def wavelengths(self) -> np.ndarray:
-        """The visible ones, then `BANDS_NM`."""
-        return np.array([*self.visible, *BANDS_NM])
-
-    @property
-    def states(self) -> int:
-        """Number of knots in all."""
-        return int(np.prod(self.knots))
-
-    @property
-    def total_rays(self) -> int:
-        """Rays of a whole table."""
-        return self.states * self.wavelengths.size * self.rays
+Results = Mapping[str, Mapping[str, np.ndarray]]
+"""Arrays of each piece by name."""
 
 
-def visible_wavelengths(step: float) -> tuple[float, ...]:
-    """Wavelengths from 400 to 700 nm at a spacing in nm."""
-    return tuple(np.arange(400.0, 700.0 + 1e-6 * step, step).tolist())
-
-
-PRESETS = {
-    "small": Settings(knots=(9, 2, 1), visible=visible_wavelengths(25.0), rays=50_000),
-    "standard": Settings(knots=(11, 3, 2), visible=visible_wavelengths(20.0), rays=60_000),
-}
-
-
-@dataclass(frozen=True)
-class Appearance:
-    """What a spectrum looks like, and its noise.
-
-    Attributes
-    ----------
-    values : (4, 3) array
-        The first four of `hylios.table.PLANES`.
-    colour_covariance : (3, 3) array
-        Of the total colour's Monte Carlo error, linear Rec.709.
-    """
-
-    values: np.ndarray
-    colour_covariance: np.ndarray
-
-
-def appearance(result: Spectrum) -> Appearance:
-    """Colour, band reflectance and profile width of a spectrum at `Settings.wavelengths`.
-
-    The profile of a colour channel adds those of the wavelengths that lift the channel, weighted
-    as they do; wavelengths that lower it (the colour space's negative lobes) are left out.
-    """
-    visible = slice(0, result.wavelengths.size - len(BANDS_NM))
-    weights = rec709_weights(result.wavelengths[visible])
-    exits = np.maximum(weights, 0.0) @ result.exit_counts[visible]
-    planes = (
-        weights @ result.subsurface[visible],
-        weights @ result.total[visible],
-        result.total[visible.stop :],
-        [_width(row) for row in exits],
-    )
-    error = result.standard_error[visible]
-    return Appearance(np.array(planes), (weights * error**2) @ weights.T)
-
-
-def _width(exits: np.ndarray) -> float:
-    """Burley's d in mm; where no light comes out of the skin any width will do."""
-    return burley_width(DISTANCE_EDGES, exits) if exits.sum() > 0 else DISTANCE_EDGES[1]
-
-
-def tanned_appearance(
+def requested(
     made_for: Skin,
-    state: np.ndarray,
     settings: Settings,
-    seed: int,
-    threads: int | None = None,
+    *,
+    seed: int = 1,
     known: Figures | None = None,
     chosen: Mapping[str, str] | None = None,
-    progress: Progress | None = None,
-) -> Appearance:
-    """Appearance of a skin in a tanning state (4,) by direct simulation."""
-    result = spectrum(
-        made_for.tanned(state[:3], state[3]),
-        settings.wavelengths,
-        angle=ANGLE,
-        rays=settings.rays,
-        seed=seed,
-        threads=threads,
-        known=known,
-        chosen=chosen,
-        progress=progress,
-    )
-    return appearance(result)
+    reached: np.ndarray | None = None,
+) -> Request:
+    """What has to be computed for a skin's table.
+
+    Parameters
+    ----------
+    known, chosen
+        Spectral figures and readings, the project's own by default.
+    reached : (N, 4) array, optional
+        Tanning states that a scene leads through; knots that they do not need are left out.
+
+    Raises
+    ------
+    InputError
+        If the skin has a layer without melanin (`lut_builder.states.untanned_state`).
+    """
+    axes = choose_axes(made_for, settings.knots)
+    needed = np.ones(axes.shape, bool)
+    if reached is not None:
+        needed = needed_knots(axes, reached, settings.interpolation)
+    # Plain dictionaries, for requests to travel to other processes.
+    figures_too, readings_too = (None if each is None else dict(each) for each in (known, chosen))
+    return Request(made_for, settings, axes, needed, seed, figures_too, readings_too)
 
 
 def build(
@@ -143,54 +71,137 @@ def build(
     threads: int | None = None,
     known: Figures | None = None,
     chosen: Mapping[str, str] | None = None,
+    reached: np.ndarray | None = None,
     progress: Progress | None = None,
 ) -> SkinTable:
-    """Build a skin's table.
+    """Build a skin's table on this machine; the same whatever the number of threads.
 
-    All states use the same random numbers, so that their noise is alike and a tan over time is
-    smooth. `known` and `chosen` are the spectral figures and readings, the project's own by
-    default; `progress` is told the rays of each piece of work as it ends.
+    Parameters as in `requested` and `in_threads`, errors as in `requested` and
+    `lut_builder.pieces.computed`.
     """
-    known = known or figures()
-    axes = choose_axes(made_for, settings.knots)
-    states = axes.knot_states().reshape(-1, 4)
-    entries = [
-        tanned_appearance(
-            made_for,
-            state,
-            settings,
-            seed,
-            threads=threads,
-            known=known,
-            chosen=chosen,
-            progress=progress,
-        )
-        for state in states
-    ]
-    values = np.array([entry.values for entry in entries])
-    variance = np.array([np.diag(entry.colour_covariance) for entry in entries])
-    planes = dict(zip(PLANES[:4], np.moveaxis(values, 1, 0), strict=True))
-    planes["colour_error"] = np.sqrt(variance)
-    cut = sum(made_for.overfull(state[:3], state[3]) for state in states)
+    request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
+    return assembled(request, in_threads(request, threads, progress))
+
+
+def in_threads(
+    request: Request, threads: int | None = None, progress: Progress | None = None
+) -> Results:
+    """All pieces of a request, on threads of this process; all cores by default.
+
+    On an exception, such as Ctrl-C, it does not wait for the pieces that are being computed.
+    """
+    results = {}
+    pool = ThreadPoolExecutor(threads or cpu_count() or 1)
+    try:
+        # The matrices are small: threads of linear algebra cost more than they bring.
+        with threadpool_limits(1, "blas"):
+            waiting = {pool.submit(computed, request, each): each for each in pieces(request)}
+            for future in as_completed(waiting):
+                results[waiting[future].name] = future.result()
+                if progress is not None:
+                    progress(waiting[future].size)
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+    return results
+
+
+def assembled(request: Request, results: Results) -> SkinTable:
+    """The table of a request from the results of its pieces."""
+    settings, parts = request.settings, pieces(request)
+    planes = _reflectance_planes(settings, parts, results)
+    if settings.has_profile:
+        planes.update(_profile_planes(settings, parts, results))
+    if not request.needed.all():
+        nearest = _nearest_computed(request.needed)
+        planes = {name: plane[nearest] for name, plane in planes.items()}
+        planes["computed"] = request.needed[..., None].astype(float)
+    cut = sum(request.skin.overfull(state[:3], state[3]) for state in request.states)
     return SkinTable(
-        axes=axes,
-        planes={name: plane.reshape(*axes.shape, -1) for name, plane in planes.items()},
+        axes=request.axes,
+        planes={name: plane.reshape(*request.axes.shape, -1) for name, plane in planes.items()},
         provenance={
-            **_provenance(made_for, settings, seed, known, readings(chosen)),
-            "colour_standard_error": np.sqrt(variance.mean(axis=0)).tolist(),
+            **provenance(request),
+            "absorptance": _absorptance(results["absorptance"]),
             "states_with_melanin_cut": int(cut),
         },
+        interpolation=settings.interpolation,
     )
 
 
-def _provenance(
-    made_for: Skin,
-    settings: Settings,
-    seed: int,
-    known: Figures,
-    decided: Mapping[str, str],
-) -> dict:
+def _nearest_computed(needed: np.ndarray) -> np.ndarray:
+    """For each knot the number of the computed state that stands for it, its own or the nearest."""
+    known = np.argwhere(needed)
+    return np.array(
+        [((known - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
+    )
+
+
+def _reflectance_planes(
+    settings: Settings, parts: list[Piece], results: Results
+) -> dict[str, np.ndarray]:
+    """Colours and bands, (states, components)."""
+    colours = sorted((each for each in parts if each.kind == "colours"), key=lambda p: p.first)
+    found = [results[each.name] for each in colours]
+    subsurface = np.concatenate([each["subsurface"] for each in found])
+    total = subsurface + np.concatenate([each["surface"] for each in found])
+    planes = {}
+    count = settings.colour_wavelengths
+    if count:
+        weights = skin_quadrature(count).weights
+        error = SOLVER_ERROR * np.abs(weights).sum(axis=1)
+        planes["subsurface_colour"] = subsurface[:, :count] @ weights.T
+        planes["total_colour"] = total[:, :count] @ weights.T
+        planes["colour_error"] = np.tile(error, (len(total), 1))
+    if settings.bands:
+        planes["band_reflectance"] = total[:, count:]
+    return planes
+
+
+def _profile_planes(
+    settings: Settings, parts: list[Piece], results: Results
+) -> dict[str, np.ndarray]:
+    """Width of each colour channel's profile, its error and effective sample size, (states, 3).
+
+    A channel's profile is the sum of those of the wavelengths, weighted as they make the channel's
+    colour, be it negatively.
+    """
+    from hylios.transport.reuse import Profiles  # numba
+    from hylios.transport.simulate import DISTANCE_EDGES
+
+    walked = sorted((each for each in parts if each.kind == "profile"), key=lambda p: p.wavelength)
+    found = [results[each.name] for each in walked]
+    light = np.stack([each["light"] for each in found], axis=1)
+    squares = np.stack([each["squares"] for each in found], axis=1)
+    widths, errors, samples = [], [], []
+    for weights in skin_quadrature(settings.profile_wavelengths).weights:
+        channel = Profiles(
+            light=np.einsum("w,swb->sb", weights, light),
+            squares=np.einsum("w,swb->sb", weights**2, squares),
+            rays=found[0]["rays"],
+            anew=found[0]["anew"],
+        )
+        seen = np.maximum(channel.light, 0.0)
+        widths.append(
+            [
+                # Where no light comes out of the skin any width will do.
+                burley_width(DISTANCE_EDGES, each) if each.sum() > 0.0 else DISTANCE_EDGES[1]
+                for each in seen
+            ]
+        )
+        errors.append(channel.standard_error.max(axis=1))
+        samples.append(channel.effective_sample_size)
+    return {
+        "profile_width": np.transpose(widths),
+        "profile_error": np.transpose(errors),
+        "profile_effective_samples": np.transpose(samples),
+    }
+
+
+def provenance(request: Request) -> dict:
+    """What a table's header says of how it was asked to be made."""
+    made_for, settings = request.skin, request.settings
     own = figures()
+    known, decided = request.known or own, readings(request.chosen)
     return {
         "software": f"skin-tan {hylios.__version__}",
         "skin": _phototype(made_for),
@@ -201,29 +212,30 @@ def _provenance(
         "melanin_dynamics": described_dynamics(made_for.dynamics),
         "mmd_sed": made_for.mmd,
         "med_sed": made_for.med,
-        "solver": "random walk",
+        "solver": f"adding, {settings.nodes} directions; profiles by random walk on shared paths",
+        "settings": {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in asdict(settings).items()
+        },
         "readings": dict(decided),
-        "absorptance": _absorptance(made_for.specimen, known, decided),
         "own_figures": {
             name: known[name].source for name in FIGURES if known[name] is not own[name]
         },
-        "wavelengths_nm": list(settings.visible),
-        "bands_nm": list(BANDS_NM),
+        "bands_nm": list(settings.bands),
         "angle_deg": ANGLE,
-        "rays": settings.rays,
-        "seed": seed,
+        "seed": request.seed,
+        "states_computed": int(request.needed.sum()),
         "colour": "linear Rec.709, D65, CIE 1931 2 degree",
         "profile_width_unit": "mm",
-        "estimated_figures": estimates_within(known, FIGURES, settings.wavelengths),
+        "estimated_figures": estimates_within(known, FIGURES, wavelengths(settings)),
     }
 
 
-def _absorptance(specimen: Specimen, known: Figures, decided: Mapping[str, str]) -> dict:
+def _absorptance(found: Mapping[str, np.ndarray]) -> dict:
     """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
-    found = tabulated(specimen, known=known, chosen=decided)
     return {
-        "wavelengths_nm": found.wavelengths.tolist(),
-        "values": np.round(found.values, 5).tolist(),
+        "wavelengths_nm": found["wavelengths"].tolist(),
+        "values": np.round(found["values"], 5).tolist(),
     }
 
 

@@ -1,17 +1,26 @@
-"""Checking a table: states between its knots, simulated directly."""
+"""Checking a table: states between its knots, computed directly."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from hylios.colour import difference
-from hylios.errors import InputError, require_whole
+from hylios.adding.spectrum import spectrum as solved
+from hylios.colour import difference, rec709_weights
+from hylios.errors import InputError
+from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
-from hylios.table import PLANES, SkinTable, melanin_dynamics
-from hylios.transport.simulate import MOST_RAYS, Progress
-from lut_builder.build import Settings, tanned_appearance
+from hylios.spectra import Figures, figures, replaced
+from hylios.table import SkinTable, melanin_dynamics
+from hylios.transport.simulate import Progress
+from hylios.transport.simulate import spectrum as walked
+from lut_builder.pieces import ANGLE
+from lut_builder.settings import Settings
 from lut_builder.states import reachable_states
+
+FINE = np.arange(400.0, 701.0, 5.0)
+"""Wavelengths in nm of a direct colour without noise."""
 
 NOISE_DRAWS = 200
 
@@ -25,18 +34,20 @@ class Check:
     states : (N, 4) array
         Reachable tanning states that are no knots.
     differences : (N,) array
-        CIEDE2000 between the table's total colour and a direct simulation's.
-    noise : (N, draws) array
-        CIEDE2000 that the Monte Carlo error of both would give if the table were exact.
+        CIEDE2000 between the table's total colour and the direct one.
+    noise : (N, draws) array or None
+        CIEDE2000 that the Monte Carlo error of the direct one alone gives; None without rays.
     """
 
     states: np.ndarray
     differences: np.ndarray
-    noise: np.ndarray
+    noise: np.ndarray | None = None
 
     @property
     def noise_share(self) -> float:
         """Mean square of the noise over that of the differences; above 1 only by chance."""
+        if self.noise is None:
+            return 0.0
         return float(np.mean(self.noise**2) / np.mean(self.differences**2))
 
 
@@ -83,62 +94,98 @@ def settings_of(table: SkinTable) -> Settings:
     InputError
         If the header does not say so.
     """
-    made = table.provenance
     try:
-        visible = tuple(float(each) for each in made["wavelengths_nm"])
-        rays = require_whole("the table's number of rays", made["rays"], 1, MOST_RAYS)
+        told = dict(table.provenance["settings"])
+        told["knots"] = tuple(int(each) for each in told["knots"])
+        told["bands"] = tuple(float(each) for each in told["bands"])
+        return Settings(**told)
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(f"the table does not say how it was built: {error}") from error
-    return Settings(knots=table.axes.shape, visible=visible, rays=rays)
+
+
+def figures_of(table: SkinTable) -> Figures:
+    """The spectral figures that a table was built with; the user's own are read again.
+
+    Raises
+    ------
+    InputError
+        If one cannot be read.
+    """
+    known = figures()
+    for name, path in table.provenance.get("own_figures", {}).items():
+        known = replaced(known, name, Path(path))
+    return known
 
 
 def check(
     table: SkinTable,
     *,
     count: int,
-    rays: int,
     seed: int,
+    rays: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Check:
-    """Simulate reachable states directly and compare their colour with the table's.
+    """Compute reachable states directly and compare their colour with the table's.
 
-    States come from schedules other than those that chose the table's axes; each has random
-    numbers of its own, other than the table's.
+    States come from schedules other than those that chose the table's axes.
+
+    Parameters
+    ----------
+    rays : int
+        Per wavelength of a random walk; 0 for the deterministic solver, every 5 nm.
+    progress : callable, optional
+        Told 1 for each state as it ends.
 
     Raises
     ------
     InputError
-        If the table's header does not say for what skin and how it was built.
+        If the table's header does not say for what skin and how it was built, a figure of the
+        user's own that it names cannot be read, or the table has no colour or too few states.
     """
-    made_for, made_with = skin_of(table), settings_of(table)
-    settings = replace(made_with, rays=rays)
+    made_for, known = skin_of(table), figures_of(table)
+    chosen = table.provenance.get("readings")
     random = np.random.default_rng(seed)
     states = random.choice(_between_knots(table, reachable_states(made_for, 100, seed)), count)
+    looked_up = table.plane("total_colour", states)
     differences, noise = [], []
-    for index, state in enumerate(states):
-        own_seed = int(np.random.SeedSequence((seed, index)).generate_state(1)[0])
-        entry = tanned_appearance(
-            made_for,
-            state,
-            settings,
-            own_seed,
-            threads=threads,
-            chosen=table.provenance.get("readings"),
-            progress=progress,
-        )
-        simulated = entry.values[PLANES.index("total_colour")]
-        differences.append(difference(table.plane("total_colour", state), simulated))
-        covariance = entry.colour_covariance * (1.0 + rays / made_with.rays)
-        draws = random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS)
-        noise.append(difference(simulated + draws, np.broadcast_to(simulated, draws.shape)))
-    return Check(states, np.array(differences), np.array(noise))
+    for index, (state, seen) in enumerate(zip(states, looked_up, strict=True)):
+        specimen = made_for.tanned(state[:3], state[3])
+        if rays:
+            few = skin_quadrature(MOST)
+            own_seed = int(np.random.SeedSequence((seed, index)).generate_state(1)[0])
+            found = walked(
+                specimen,
+                few.wavelengths,
+                angle=ANGLE,
+                rays=rays,
+                seed=own_seed,
+                threads=threads,
+                known=known,
+                chosen=chosen,
+            )
+            direct = few.weights @ found.total
+            covariance = (few.weights * found.standard_error**2) @ few.weights.T
+            draws = random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS)
+            noise.append(difference(direct + draws, np.broadcast_to(direct, draws.shape)))
+        else:
+            found = solved(specimen, FINE, angle=ANGLE, known=known, chosen=chosen)
+            direct = rec709_weights(FINE) @ found.total
+        differences.append(difference(seen, direct))
+        if progress is not None:
+            progress(1)
+    return Check(states, np.array(differences), np.array(noise) if rays else None)
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
-    """Those of the states (N, 4) that are no knot of the table."""
+    """Those of the states (N, 4) that are no knot of the table and were not left out of it."""
     knots = np.log(table.axes.knot_states().reshape(-1, 4))
     apart = np.full(len(states), np.inf)
     for knot in knots:
         apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))
-    return states[apart > 1e-6]
+    held = apart > 1e-6
+    if "computed" in table.planes:
+        held &= table.plane("computed", states)[:, 0] > 1.0 - 1e-6
+    if not held.any():
+        raise InputError("the table has no state between its knots that could be checked.")
+    return states[held]

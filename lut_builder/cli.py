@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hylios.errors import require_range, require_whole
-from hylios.files import require_target
+from hylios.errors import require_whole
+from hylios.quadrature import FEWEST, MOST
 from hylios.shell import (
     add_skin_arguments,
     add_tanning_arguments,
@@ -24,15 +24,23 @@ from hylios.shell import (
     run,
 )
 from hylios.skin import UNTANNED
-from hylios.table import read_table
+from hylios.table import INTERPOLATIONS, read_table
+from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 
 if TYPE_CHECKING:
-    from lut_builder.build import Settings
+    from lut_builder.work import Runner
 
 # numba, colour-science and OpenImageIO take a second or more: only the commands import them.
 
-MOST_KNOTS = 100
+ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
+"""Planes that say how good the others are."""
+
 LEAST_RAYS, MOST_RAYS = 100, 10**9
+SHORT = 5.0
+"""Seconds of work below which the start of other processes does not pay."""
+
+SECONDS_LEFT = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}, {remaining} left"
+"""Of a bar whose steps are seconds by an estimate, which is not worth printing."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -57,79 +65,137 @@ def _parser() -> argparse.ArgumentParser:
         help="skin without sun: 5.16 as printed, melanin by the tanning set's steady state, or "
         "the specimen's own distribution",
     )
-    building.add_argument("--preset", choices=["small", "standard"], default="standard")
+    building.add_argument("--preset", choices=list(PRESETS), default="standard")
     building.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
-    building.add_argument("--step", type=float, help="spacing of visible wavelengths, nm")
-    building.add_argument("--rays", type=int, help="rays per wavelength and state")
-    building.add_argument("--force", action="store_true", help="replace an existing file")
+    building.add_argument("--wavelengths", type=int, help="from which colours are made, 4 to 16")
+    building.add_argument(
+        "--bands", help="what to hold: visible and wavelengths in nm, such as visible,365,1100"
+    )
+    building.add_argument(
+        "--profile-error", type=float, help="standard error of the cumulative diffusion profile"
+    )
+    building.add_argument(
+        "--no-profile", action="store_true", help="no diffusion profile: for renders without"
+    )
+    building.add_argument("--nodes", type=int, help="directions of the solver, 6 to 200")
+    building.add_argument("--interpolation", choices=INTERPOLATIONS, help="between the knots")
+    building.add_argument("--half", action="store_true", help="store numbers of 16 bits")
+    building.add_argument(
+        "--schedule",
+        type=Path,
+        metavar="FILE.csv",
+        help="compute only the states that these doses lead to; CSV with the columns hour, "
+        "melanogenesis_sed, thickening_sed, as `hylios dose` prints and the add-on exports",
+    )
+    building.add_argument(
+        "--days", type=float, default=60.0, help="that the schedule's scene lasts (60)"
+    )
+    building.add_argument(
+        "--resume", action="store_true", help="go on with a build that was interrupted"
+    )
+    building.add_argument(
+        "--force", action="store_true", help="replace an existing file and unfinished work"
+    )
+    building.add_argument(
+        "--dask",
+        metavar="tcp://HOST:PORT",
+        help="spread the work over the Dask cluster with this scheduler",
+    )
     building.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.exr")
 
     info = commands.add_parser("info", help="say what a table is")
     info.set_defaults(command=_info)
     info.add_argument("table", type=Path)
 
-    checking = commands.add_parser("check", help="compare a table with direct simulation")
+    checking = commands.add_parser("check", help="compare a table with the model between knots")
     checking.set_defaults(command=_check)
     checking.add_argument("table", type=Path)
-    checking.add_argument("--states", type=int, default=20, help="states between the knots")
-    checking.add_argument("--rays", type=int, help="rays per wavelength (default: the table's)")
+    checking.add_argument("--states", type=int, default=200, help="between the knots (200)")
+    checking.add_argument(
+        "--rays",
+        type=int,
+        default=0,
+        help="per wavelength of a random walk (default: the solver, without noise)",
+    )
     add_work_arguments(checking)
     return parser
 
 
 @contextmanager
-def _progress(total: int, what: str) -> Iterator[Callable[[int], object]]:
+def _progress(total: float, what: str) -> Iterator[Callable[[float], object]]:
     from tqdm import tqdm
 
-    with tqdm(total=total, desc=what, unit="ray", unit_scale=True, mininterval=0.5) as bar:
-        yield bar.update
+    with tqdm(total=total, desc=what, bar_format=SECONDS_LEFT, mininterval=0.5) as bar:
+        yield lambda size: bar.update(min(size, total - bar.n))  # no rounding beyond the end
 
 
-def _settings(asked: argparse.Namespace) -> "Settings":
-    from lut_builder.build import PRESETS, visible_wavelengths
-
+def _settings(asked: argparse.Namespace) -> Settings:
     settings = PRESETS[asked.preset]
     if asked.knots is not None:
         counts = [number(part, "number of knots") for part in asked.knots.split(",")]
-        require_whole("number of axes", len(counts), 1, 4)
         knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
         settings = replace(settings, knots=tuple(knots))
-    if asked.step is not None:
-        step = require_range("step", asked.step, 1.0, 100.0, "nm")
-        settings = replace(settings, visible=visible_wavelengths(step))
-    if asked.rays is not None:
-        rays = require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
-        settings = replace(settings, rays=rays)
-    return settings
+    if asked.wavelengths is not None:
+        count = require_whole("number of wavelengths", asked.wavelengths, FEWEST, MOST)
+        settings = replace(settings, colour_wavelengths=count)
+    if asked.bands is not None:
+        bands = [each.strip() for each in asked.bands.split(",") if each.strip()]
+        shown = settings.colour_wavelengths if VISIBLE in bands else 0
+        single = tuple(number(each, "band") for each in bands if each != VISIBLE)
+        settings = replace(settings, colour_wavelengths=shown, bands=single)
+    if asked.profile_error is not None:
+        settings = replace(settings, profile_error=asked.profile_error)
+    if asked.no_profile:
+        settings = replace(settings, profile_error=0.0)
+    if asked.nodes is not None:
+        settings = replace(settings, nodes=asked.nodes)
+    if asked.interpolation is not None:
+        settings = replace(settings, interpolation=asked.interpolation)
+    return replace(settings, half=asked.half or settings.half)
 
 
 def _build(asked: argparse.Namespace) -> None:
-    require_target(asked.output, (".exr",), asked.force)
     require_work(asked)
+    settings = _settings(asked)
     _, known, chosen = chosen_skin(asked)
     made_for = chosen_tanning_skin(asked, asked.untanned)
 
-    from lut_builder.build import build
+    from lut_builder.build import assembled, requested
     from lut_builder.exr import write_table
-    from lut_builder.states import choose_axes
+    from lut_builder.pieces import computed, pieces
+    from lut_builder.schedule import reached_states, read_schedule
+    from lut_builder.work import Unit, done, software_digest, unfinished
 
-    settings = _settings(asked)
-    settings = replace(settings, knots=choose_axes(made_for, settings.knots).shape)
-    with _progress(settings.total_rays, f"table of {settings.states} states") as progress:
-        table = build(
-            made_for,
-            settings,
-            seed=asked.seed,
-            threads=asked.threads,
-            known=known,
-            chosen=chosen,
-            progress=progress,
-        )
-    write_table(asked.output, table)
+    reached = None
+    if asked.schedule is not None:
+        reached = reached_states(made_for, read_schedule(asked.schedule), asked.days)
+    request = requested(
+        made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
+    )
+    wanted, knots = len(request.states), request.needed.size
+    units = [Unit(each.name, computed, (request, each), each.size) for each in pieces(request)]
+    with unfinished(asked.output, (".exr",), resume=asked.resume, force=asked.force) as folder:
+        if reached is not None:
+            print(f"the scene needs {wanted} of {knots} states: {1.0 - wanted / knots:.0%} saved")
+        runner = _runner(asked, sum(each.size for each in units))
+        found = done(units, folder, software_digest(), runner, f"table of {wanted} states")
+        table = assembled(request, found)
+        write_table(folder / asked.output.name, table, half=settings.half)
     cut = table.provenance["states_with_melanin_cut"]
     if cut:
-        print(f"note: {cut} of {settings.states} states would overfill a layer with melanin; cut")
+        print(f"note: {cut} of {wanted} states would overfill a layer with melanin; cut")
     print(f"wrote {asked.output}: {os.path.getsize(asked.output) / 1000:.1f} KB")
+
+
+def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
+    """Where the units are done: on a cluster, in this process if they are short, or in several."""
+    from lut_builder.work import in_processes
+
+    if asked.dask is not None:
+        from lut_builder.cluster import on_cluster
+
+        return on_cluster(asked.dask)
+    return in_processes(1 if seconds < SHORT else asked.threads or os.cpu_count() or 1)
 
 
 def _info(asked: argparse.Namespace) -> None:
@@ -144,6 +210,10 @@ def _info(asked: argparse.Namespace) -> None:
         else:
             print(f"{name}: {value}")
     print(f"planes: {', '.join(table.planes)}")
+    for name in ERRORS:
+        if name in table.planes:
+            values = table.planes[name]
+            print(f"{name}: {values.min():.3g} to {values.max():.3g}, mean {values.mean():.3g}")
     directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
     for axis, (direction, knots) in enumerate(directions, start=1):
         print(
@@ -155,31 +225,30 @@ def _info(asked: argparse.Namespace) -> None:
 def _check(asked: argparse.Namespace) -> None:
     require_whole("number of states", asked.states, 1, 10_000)
     require_work(asked)
+    if asked.rays:
+        require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
 
-    from lut_builder.check import check, settings_of
+    from lut_builder.check import check
 
     table = read_table(asked.table)
-    settings = settings_of(table)
-    rays = settings.rays if asked.rays is None else asked.rays
-    require_whole("number of rays", rays, LEAST_RAYS, MOST_RAYS)
-    total = asked.states * settings.wavelengths.size * rays
-    with _progress(total, f"{asked.states} states directly") as progress:
+    with _progress(asked.states, "states directly") as progress:
         result = check(
             table,
             count=asked.states,
-            rays=rays,
+            rays=asked.rays,
             seed=asked.seed,
             threads=asked.threads,
             progress=progress,
         )
     print(f"states: {len(result.differences)}, reachable, none of them a knot")
-    print(f"mean CIEDE2000 between table and simulation: {result.differences.mean():.3f}")
+    print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
     print(f"largest: {result.differences.max():.3f}")
-    print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
-    print(
-        "share of the mean squared difference that noise explains: "
-        f"{result.noise_share:.0%} (over 100 % by chance)"
-    )
+    if result.noise is not None:
+        print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
+        print(
+            "share of the mean squared difference that noise explains: "
+            f"{result.noise_share:.0%} (over 100 % by chance)"
+        )
 
 
 if __name__ == "__main__":

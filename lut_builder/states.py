@@ -106,3 +106,20 @@ def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
         below = min(max(below, 1), count - 2)
     parts = [np.linspace(low, 0.0, below + 1), np.linspace(0.0, high, count - below)[1:]]
     return np.concatenate(parts)
+
+
+def needed_knots(axes: StateAxes, states: np.ndarray, interpolation: str) -> np.ndarray:
+    """Which knots a lookup at states (N, 4) reads, bool of shape `axes.shape`.
+
+    Those at the corners of the states' cells; with PCHIP their neighbours too, which its slopes
+    need.
+    """
+    needed = np.zeros(axes.shape, bool)
+    reach = 1 if interpolation == "pchip" else 0
+    lows = [
+        np.clip(np.searchsorted(knots, place, side="right") - 1, 0, max(len(knots) - 2, 0))
+        for knots, place in zip(axes.knots, axes.coordinates(states).T, strict=True)
+    ]
+    for cell in np.unique(np.stack(lows, axis=1), axis=0):
+        needed[tuple(slice(max(low - reach, 0), low + 2 + reach) for low in cell)] = True
+    return needed

@@ -34,7 +34,7 @@ def demo(_: argparse.Namespace) -> None:
     with tempfile.TemporaryDirectory(dir=OUT, prefix=".unfinished-") as folder:
         unfinished = Path(folder)
         what = subject()
-        small_table(unfinished / TABLE)
+        skin_table(unfinished / TABLE)
         obj = scene.build(what)
         tan(obj, unfinished / TABLE)
         render.prepare(bpy.context.scene)
@@ -59,15 +59,15 @@ def subject() -> scene.Subject:
         return scene.suzanne()
 
 
-def small_table(path: Path) -> None:
-    """Build a small table of the skin of the thesis's figure 6.29 with the shell command.
+def skin_table(path: Path) -> None:
+    """Build a table of the skin of the thesis's figure 6.29 with the shell command.
 
     Raises
     ------
     InputError
         If that fails; the command itself has said why.
     """
-    command = [sys.executable, "-m", "lut_builder.cli", "build", "--preset", "small"]
+    command = [sys.executable, "-m", "lut_builder.cli", "build"]
     skin = ["--specimen", "S3", "--pigmentation", "intermediate", "--mmd", "2.89", "--med", "1.7"]
     try:
         built = subprocess.run([*command, *skin, "-o", str(path)], stdout=subprocess.DEVNULL)

@@ -8,7 +8,6 @@ import datetime
 import os
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,7 @@ from hylios.quadrature import skin_quadrature
 from hylios.shell import run
 from hylios.specimen import SPECIMENS
 from hylios.transport.simulate import Spectrum, spectrum
-from lut_builder.build import BANDS_NM, PRESETS
+from lut_builder.settings import BANDS_NM
 
 DOCUMENT = Path("docs/simplifications.md")
 
@@ -82,7 +81,6 @@ def measure(_: argparse.Namespace) -> None:
                 Row("no profile, away from edges", *no_difference(known), None, None, None, 1.0),
             ],
             choices=CHOICES,
-            presets=preset_rows(wavelengths),
             lines=tan_lines(told),
             profiles=profiles,
             walked=measures.walked_difference(known, np.array([each.total for each in profiles])),
@@ -100,23 +98,6 @@ def measure(_: argparse.Namespace) -> None:
 def no_difference(known: measures.Truth) -> tuple[np.ndarray, np.ndarray]:
     """What costs nothing, as two fields of a `Row`."""
     return known.differences(known.colours)
-
-
-def preset_rows(wavelengths: Sequence[Row]) -> list[Row]:
-    """Today's presets of the table builder, and what could stand in their place."""
-    rows = {row.what: row for row in wavelengths}
-    made = []
-    for name, settings in PRESETS.items():
-        row = rows[
-            f"{len(settings.visible)} wavelengths, every {np.diff(settings.visible)[0]:g} nm"
-        ]
-        what = f"{name} today: {row.what}, {settings.rays:,} rays"
-        made.append(measures.with_rays(row, what, settings.rays))
-    for name, count, rays in (("small", 8, 65_000), ("standard", 8, 90_000)):
-        row = rows[f"{count} wavelengths, chosen"]
-        what = f"{name} instead: {row.what}, {rays:,} rays"
-        made.append(measures.with_rays(row, what, rays))
-    return made
 
 
 def tan_lines(told: measures.Progress) -> list[Edge]:

@@ -1,7 +1,7 @@
 """What a simplification costs in colour and buys in time."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -199,14 +199,6 @@ def ray_rows(known: Truth, counts: Sequence[int]) -> list[Row]:
         what = f"{rays:,} rays per wavelength"
         rows.append(Row(what, *differences, chance, rays / RAYS, 1.0, None))
     return rows
-
-
-def with_rays(row: Row, what: str, rays: int) -> Row:
-    """A row for another number of rays per wavelength than `RAYS`."""
-    share = rays / RAYS
-    chance = None if row.noise is None else row.noise / np.sqrt(share)
-    walk = None if row.walk is None else row.walk * share
-    return replace(row, what=what, noise=chance, walk=walk)
 
 
 def solver_over_walk(effort: Effort) -> float:

@@ -17,7 +17,7 @@ from hylios.profile import burley_width
 from hylios.quadrature import Quadrature
 from hylios.specimen import SPECIMENS
 from hylios.transport.simulate import DISTANCE_EDGES, Spectrum
-from lut_builder.build import BANDS_NM
+from lut_builder.settings import BANDS_NM
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,6 @@ class Findings:
     wavelengths, gauss, rays, model : lists of Row
     choices : list of (str, Quadrature)
         Those of `wavelengths`, the full model's first.
-    presets : list of Row
-        Of the table builder's presets as they are.
     lines : list of Edge
         Of S1 to S4.
     profiles : list of Spectrum
@@ -52,7 +50,6 @@ class Findings:
     rays: Sequence[Row]
     model: Sequence[Row]
     choices: Sequence[tuple[str, Quadrature]]
-    presets: Sequence[Row]
     lines: Sequence[Edge]
     profiles: Sequence[Spectrum]
     walked: float
@@ -92,9 +89,6 @@ def markdown(found: Findings, today: datetime.date, seconds: float) -> str:
         _bands(found.bands),
         "## What a scene needs",
         text.NEEDS,
-        text.PRESETS_TODAY,
-        rows_table(found.presets),
-        text.PRESETS_TO_COME,
     ]
     return "\n\n".join(_wrapped(part.strip()) for part in parts) + "\n"
 

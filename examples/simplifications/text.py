@@ -54,8 +54,8 @@ Burley's width d of a channel from some of the wavelengths, against all 61: mean
 to S4, of which chance is about 1 % where wavelengths are many and 2 % where they are few ({rays:,}
 rays per wavelength). A wavelength may have a
 negative weight in a channel. Taking its light away from the channel's profile is what colour does,
-and then few wavelengths do as well as all. Leaving negative weights out, as the table builder does
-now (the columns *above 0 only*), has few wavelengths miss the width, and moves the width itself
+and what the table builder does; then few wavelengths do as well as all. Leaving negative weights
+out (the columns *above 0 only*) has few wavelengths miss the width, and moves the width itself
 whatever their number: with all 61, by {signed}.
 """
 
@@ -104,18 +104,4 @@ NEEDS = """
 - **The profile** is needed wherever the line of a tan is seen from near: it costs more than 1
   within 2 to 3 mm of the line. Where a pixel is wider than that, it is not.
 - **Ultraviolet and infrared bands** only where they are rendered.
-"""
-
-PRESETS_TODAY = """
-The table builder's presets as they are, and the same with chosen wavelengths: less of an error at
-no more noise, in less time.
-"""
-
-PRESETS_TO_COME = """
-What follows for a builder with both solvers:
-
-- *preview*: colours by the solver at five chosen wavelengths, widths by the walk with 2,000 rays at
-  each;
-- *standard*: both at eight chosen wavelengths, widths with 10,000 rays at each;
-- *reference*: the walk alone at 61 wavelengths, with as many rays as the noise asked for takes.
 """

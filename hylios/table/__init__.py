@@ -17,7 +17,7 @@ from hylios.table.layout import (
     from_stored,
     to_stored,
 )
-from hylios.table.planes import MEANINGS, PLANES, REQUIRED_PLANES
+from hylios.table.planes import MEANINGS, PLANES
 from hylios.table.table import SkinTable
 
 __all__ = [
@@ -28,7 +28,6 @@ __all__ = [
     "INTERPOLATIONS",
     "MEANINGS",
     "PLANES",
-    "REQUIRED_PLANES",
     "STATE_NAMES",
     "SkinTable",
     "StateAxes",

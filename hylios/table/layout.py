@@ -11,7 +11,7 @@ import numpy as np
 from hylios.errors import InputError
 from hylios.table.axes import STATE_NAMES, StateAxes, require_axes
 from hylios.table.interpolation import INTERPOLATIONS
-from hylios.table.planes import MEANINGS, REQUIRED_PLANES, component_names
+from hylios.table.planes import MEANINGS, component_names
 from hylios.table.table import SkinTable
 
 FORMAT = "skin tan table"
@@ -192,9 +192,8 @@ def _require_interpolation(name: Any) -> None:
 
 
 def _require_planes(names: tuple[str, ...]) -> None:
-    missing = [name for name in REQUIRED_PLANES if name not in names]
-    if missing:
-        raise InputError(f"the table has no plane {missing[0]}; it has {', '.join(names)}.")
+    if not names:
+        raise InputError("the table has no plane that has a meaning.")
 
 
 def _parsed(text: str) -> dict[str, Any]:

@@ -52,11 +52,14 @@ MEANINGS = {
         "rays",
         fits_half=False,
     ),
+    "computed": Meaning(
+        "1 where the state was computed; 0 where it holds the numbers of the nearest that was",
+        "share",
+        components=("Y",),
+    ),
 }
 PLANES = tuple(MEANINGS)
-"""Names of the planes that have a meaning; a table has the required ones and any of the others."""
-
-REQUIRED_PLANES = ("subsurface_colour", "total_colour", "profile_width")
+"""Names of the planes that have a meaning; a table has one or more of them."""
 
 
 def component_names(plane: str, provenance: Mapping[str, Any]) -> tuple[str, ...]:

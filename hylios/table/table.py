@@ -19,8 +19,7 @@ class SkinTable:
     ----------
     axes : StateAxes
     planes : mapping of names to (*axes.shape, components) arrays
-        All of `REQUIRED_PLANES` and any others of `PLANES`; `docs/table_format.md` says what
-        each holds.
+        Some of `PLANES`; `docs/table_format.md` says what each holds.
     provenance : dict
         What made the table: specimen, pigmentation, wavelengths, rays, seed, errors, version.
     interpolation : str

@@ -107,8 +107,8 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
         if depth < total * face:
             distance = depth / total
             depth = free_path(state, 1.0)
-            event = _kind(layers, here, total * uniform(state))
-            if event == MELANOSOME and not _out_of_touch(
+            event = kind_met(layers, here, total * uniform(state))
+            if event == MELANOSOME and not out_of_touch(
                 layers, here, added(position, distance, ray), before
             ):
                 seen = True
@@ -160,7 +160,7 @@ def walk_equivalent(layers, surroundings, readings, ray, state):
 
 
 @part
-def _kind(layers, here, drawn):
+def kind_met(layers, here, drawn):
     """Which attenuator it is, for a number from 0 to the sum of their coefficients."""
     drawn -= layers[here, ENCOUNTER]
     if drawn < 0.0:
@@ -173,7 +173,7 @@ def _kind(layers, here, drawn):
 
 
 @part
-def _out_of_touch(layers, here, hit, before):
+def out_of_touch(layers, here, hit, before):
     """Whether what is hit there can neither cross a face nor overlap what was met before.
 
     Nothing reaches further than the size of a body from where it is hit.
@@ -199,7 +199,7 @@ def _placed(state, layers, here, position, ray, distance, face, others, before, 
         axis, point, offset = drawn_body(state, ray, half_axes, layers[here, COMPLEX_RADIUS])
         centre = added(added(position, path, ray), 1.0, offset)
         if fits(layers, here, centre, axis):
-            free, before = _is_free(state, layers, here, centre, axis, before, optics)
+            free, before = is_free(state, layers, here, centre, axis, before, optics)
             if free:
                 return path, MELANOSOME, axis, point, centre, before
         if other < 0.0:
@@ -209,12 +209,12 @@ def _placed(state, layers, here, position, ray, distance, face, others, before, 
             break
     if face <= other:
         return face, INTERFACE, axis, point, centre, before
-    event = _kind(layers, here, layers[here, ENCOUNTER] + others * uniform(state))
+    event = kind_met(layers, here, layers[here, ENCOUNTER] + others * uniform(state))
     return other, event, axis, point, centre, before
 
 
 @part
-def _is_free(state, layers, here, centre, axis, before, optics):
+def is_free(state, layers, here, centre, axis, before, optics):
     """Whether a body does not overlap the one met before, and what is known of that by now."""
     known, hit, ray, chord, before_centre, before_axis = before
     half_axes, radius = (

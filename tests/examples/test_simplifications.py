@@ -159,7 +159,6 @@ def findings(render: float | None) -> report.Findings:
         rays=[row("rays")],
         model=[row("model")],
         choices=choices,
-        presets=[row("preset")],
         lines=[edge.edge(ring(2.0, 0.5), ring(2.0, 0.3), np.ones((3, 1)))] * 4,
         profiles=[ring(2.0, 0.5)] * 4,
         walked=0.3,
@@ -174,24 +173,12 @@ def findings(render: float | None) -> report.Findings:
 def test_the_page_has_every_row_and_no_number_missing(render, sentence):
     page = report.markdown(findings(render), datetime.date(2026, 1, 2), 60.0)
     assert sentence in page and "2026-01-02" in page and "1/100 of the time" in page
-    for each in ("all", "few", "gauss", "rays", "model", "preset"):
+    for each in ("all", "few", "gauss", "rays", "model"):
         assert f"| {each} | 0.20, 0.30 | 2.0, 3.0 | 0.020 | 0.50 |  | 1.0 |" in page
     assert "{" not in page and "nan" not in page
     tables = [part.split("\n") for part in page.split("\n\n") if part.startswith("|")]
     for lines in tables:
         assert len({line.count("|") for line in lines}) == 1
-
-
-def test_with_fewer_rays_there_is_more_noise_in_less_time():
-    fewer = measures.with_rays(row("few"), "fewer", measures.RAYS // 4)
-    assert (fewer.noise, fewer.walk) == pytest.approx((0.04, 0.125))
-    assert fewer.what == "fewer"
-
-
-def test_presets_are_found_among_the_wavelengths():
-    rows = [row(what) for what, _ in simplifications.CHOICES]
-    names = [each.what.split()[0] for each in simplifications.preset_rows(rows)]
-    assert names == ["small", "standard", "small", "standard"]
 
 
 def test_the_page_shipped_has_the_rows_of_today():

@@ -9,8 +9,6 @@ import pytest
 
 from hylios.errors import InputError
 from hylios.table import (
-    PLANES,
-    REQUIRED_PLANES,
     SkinTable,
     StateAxes,
     StoredTable,
@@ -20,6 +18,7 @@ from hylios.table import (
 )
 from hylios.table.layout import _checksum
 
+COLOURS_AND_WIDTH = ("subsurface_colour", "total_colour", "profile_width")
 KNOTS = (np.array([-1.0, 0.0, 1.0, 2.0]), np.array([0.0, 1.0]), np.array([-1.0, 0.0, 0.5]))
 
 
@@ -34,7 +33,7 @@ def table():
     )
     planes = {
         name: random.random((*axes.shape, 3)).astype(np.float32).astype(float)
-        for name in REQUIRED_PLANES
+        for name in COLOURS_AND_WIDTH
     }
     planes["band_reflectance"] = np.full((*axes.shape, 2), 0.25)
     return SkinTable(axes, planes, {"specimen": "S3", "rays": 7, "bands_nm": [365, 1083.5]})
@@ -99,7 +98,7 @@ def test_half_floats_round_to_a_half_and_counts_stay_exact(table):
     count = np.full((*table.axes.shape, 3), 1e7)
     table = replace(table, planes={**table.planes, "profile_effective_samples": count})
     again = from_stored(to_stored(table, half=True))
-    for name in REQUIRED_PLANES:
+    for name in COLOURS_AND_WIDTH:
         error = np.abs(again.planes[name] / table.planes[name] - 1.0)
         # Numbers from 0 to 1, drawn evenly: none so small that a half loses digits.
         assert 0.0 < error.max() <= 2.0**-11
@@ -122,8 +121,8 @@ CHANGES = [
     (lambda header: header.update(axes=5), "incomplete"),
     (lambda header: header.update(planes=["total_colour"]), "incomplete"),
     (lambda header: header["planes"].update(total_colour=None), "incomplete"),
-    (lambda header: header["planes"].pop("profile_width"), "no plane profile_width; it has"),
-    (lambda header: header["planes"].clear(), "no plane subsurface_colour"),
+    (lambda header: header["planes"].clear(), "no plane that has a meaning"),
+    (lambda header: header.update(planes={"glow": {}}), "no plane that has a meaning"),
     (lambda header: header["planes"]["total_colour"]["components"].pop(), "the components R, G"),
     (lambda header: header["provenance"].pop("bands_nm"), "needs wavelengths bands_nm"),
     (lambda header: header["provenance"].update(bands_nm=[365, 365]), "bands_nm that differ"),
@@ -230,7 +229,7 @@ def test_what_is_too_large_for_a_half_is_not_written(table):
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"planes": {}}, "no plane subsurface_colour"),
+        ({"planes": {}}, "no plane that has a meaning"),
         ({"provenance": {}}, "needs wavelengths bands_nm"),
         ({"provenance": {"bands_nm": [1, 2], "rays": np.nan}}, "not finite"),
         ({"interpolation": "cubic"}, "interpolation is 'cubic'"),
@@ -252,5 +251,8 @@ def test_what_is_no_file_is_refused(tmp_path):
             read_table(tmp_path / name)
 
 
-def test_required_planes_have_a_meaning():
-    assert set(REQUIRED_PLANES) < set(PLANES)
+def test_a_table_may_have_any_of_the_planes(table):
+    for name, values in table.planes.items():
+        alone = from_stored(to_stored(replace(table, planes={name: values})))
+        assert list(alone.planes) == [name]
+        assert np.array_equal(alone.planes[name], values)

@@ -19,9 +19,8 @@ ALLOWED = {
     "hylios/table": {"numpy"},
     "hylios/transport": {"numpy", "numba"},
     "hylios/ultraviolet": {"numpy"},
-    "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
+    "lut_builder": {"numpy", "OpenImageIO", "threadpoolctl", "tqdm", "hylios"},
     "lut_builder/cluster.py": {"distributed", "hylios"},
-    "lut_builder/work.py": {"numpy", "threadpoolctl", "tqdm", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }
@@ -39,6 +38,7 @@ LIGHT_ROOMS = (
 NUMPY_ONLY = (
     "adding",
     "errors",
+    "files",
     "physiology",
     "quadrature",
     "skin",

@@ -1,0 +1,701 @@
+"""Diffusion profiles of many stacks of one geometry from paths that they share.
+
+A tan changes how much light is absorbed, how many melanosomes it meets, and the thickness of all
+layers by one factor. The density of a path is then that of `log_density`, linear in the sums that
+`hylios.transport.recording` keeps. A path walked in one state serves for another with the ratio of
+the two densities as its weight.
+
+Paths are pooled: rays are spent in several states, and a path counts for a state with its density
+there over the sum of its densities in all of those, times their rays (the balance heuristic of
+E. Veach and L. Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering").
+So neighbours help each other, and no weight exceeds what the state's own rays would give it. How
+many rays are spent in which state (`allocated`) is chosen for the fewest in all with which every
+state has the effective sample size that is asked for; where reuse does not pay, this comes down to
+simulating each state for itself. What falls short of its limit all the same is simulated anew.
+
+All paths are walked in layers of one thickness, in which every state is put (`rescaled`). What is
+not exact: melanosomes, which keep their size, then lie more densely; and see
+`hylios.transport.recording`. The tests say how little it is.
+"""
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hylios.adding.melanosomes import encounters
+from hylios.errors import InputError, require_range, require_whole
+from hylios.specimen import Specimen
+from hylios.spectra import Figures, figures, require_wavelengths
+from hylios.tissue import Layer, Stack
+from hylios.transport.counting import skin_key, skin_stack
+from hylios.transport.generator import stream
+from hylios.transport.recording import SUMS, record_paths
+from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, MOST_RAYS, NO_END, count, in_threads
+from hylios.transport.survival import with_survival
+from hylios.transport.walk import kernel_arguments
+
+LIGHTER = 0.6
+"""Absorption with which shared paths are walked, relative to the state's own: more of them come
+out, and weigh less. The fewest seconds per effective path, flatly, at .5 to .7 for S3 and S4."""
+
+TOGETHER = 96
+"""States that share paths at most."""
+
+PILOT_RAYS, PILOT_PATHS, PILOT_ROUNDS = 64, 2048, 48
+"""Of the trial before rays are allocated: rays per state and round, paths wanted, most rounds."""
+
+STEPS = 50
+"""Of the iteration that allocates rays."""
+
+FIRST = 0.35
+"""Share of the limit up to which rays are spent at first, as a trial says it with much noise."""
+
+SPARE = 1.05
+"""Factor on what is missing where more rays are added, for noise not to leave it missing."""
+
+SQUEEZES = 4
+"""Steps in which the amount of melanosomes met is kept when layers are squeezed."""
+
+FEWEST = 0.003
+"""Share of all rays below which none are spent in a state."""
+
+BLOCK = 4096
+"""Paths weighted at once."""
+
+PIECES = 4
+"""Of rays that are counted between looks at how many came out."""
+
+MOST_PER_PATH = 400
+"""Rays per effective path after which a state that lets out hardly any light is left as it is."""
+
+LEAST = 1e-300
+
+
+@dataclass(frozen=True)
+class Paths:
+    """Ways through a stack that ended outside its surface after having been inside.
+
+    Attributes
+    ----------
+    layers : Stack
+        What they were walked in.
+    launched : int
+        Rays, of which N took these ways.
+    distance : (N,) array
+        Between entry and exit, in mm.
+    sums : (N, L, len(SUMS)) array
+        Sums over each way in each layer (`hylios.transport.recording.SUMS`), lengths in cm.
+    """
+
+    layers: Stack
+    launched: int
+    distance: np.ndarray
+    sums: np.ndarray
+
+    @property
+    def table(self) -> np.ndarray:
+        """The sums with all layers side by side, (N, L x len(SUMS))."""
+        return self.sums.reshape(len(self.sums), self.sums.shape[1] * self.sums.shape[2])
+
+
+@dataclass(frozen=True)
+class Profiles:
+    """Light that leaves S stacks after having been inside, by distance from where it came in.
+
+    Bin i of distances starts at `hylios.transport.simulate.DISTANCE_EDGES[i]`; there are B.
+
+    Attributes
+    ----------
+    light : (S, B) array
+        Share of the incident light.
+    squares : (S, B) array
+        Sum of squared weights, of which `light` is the sum.
+    rays : (S,) int array
+        Rays spent in each stack, those that are tried before not counted.
+    anew : (S,) bool array
+        Whether a stack's profile is from its own rays alone, counted.
+    """
+
+    light: np.ndarray
+    squares: np.ndarray
+    rays: np.ndarray
+    anew: np.ndarray
+
+    @property
+    def subsurface(self) -> np.ndarray:
+        """Share of the incident light that leaves after having been inside, (S,)."""
+        return self.light.sum(axis=1)
+
+    @property
+    def subsurface_error(self) -> np.ndarray:
+        """Standard error of `subsurface`, (S,), a little too large where paths are pooled."""
+        return np.sqrt(self.squares.sum(axis=1))
+
+    @property
+    def effective_sample_size(self) -> np.ndarray:
+        """How many paths of equal weight would tell as much, (S,); 0 where no light came out."""
+        return _effective(self.light.sum(axis=1), self.squares.sum(axis=1))
+
+    @property
+    def within(self) -> np.ndarray:
+        """Share of a stack's subsurface light that leaves nearer than the end of each bin, (S, B).
+
+        A ratio of two estimates, whose bias is some 1 / `effective_sample_size`; 0 where no light
+        came out.
+        """
+        whole = np.maximum(self.subsurface, LEAST)[:, None]
+        return np.cumsum(self.light, axis=1) / whole
+
+    @property
+    def standard_error(self) -> np.ndarray:
+        """Standard error of `within`, (S, B), of a ratio to first order.
+
+        Near .5 / sqrt(`effective_sample_size`) where half of the light is within.
+        """
+        near = np.cumsum(self.squares, axis=1)
+        far = self.squares.sum(axis=1)[:, None] - near
+        variance = (1.0 - self.within) ** 2 * near + self.within**2 * np.maximum(far, 0.0)
+        return np.sqrt(variance) / np.maximum(self.subsurface, LEAST)[:, None]
+
+
+def trace_paths(
+    layers: Stack,
+    *,
+    rays: int,
+    angle: float = 0.0,
+    key: tuple[int, ...] = (1,),
+    threads: int | None = None,
+) -> Paths:
+    """Walk rays and keep the paths of those that come back from inside.
+
+    The result does not depend on the number of threads. A path of skin takes some 350 bytes.
+
+    Parameters
+    ----------
+    layers : Stack
+        Of finite thickness.
+    rays : int
+    angle : float
+        Of incidence, in degrees, 0 to 89.99.
+    key : tuple of int
+        Names the streams of random numbers.
+    threads : int, optional
+        All cores by default.
+
+    Raises
+    ------
+    InputError
+        If the angle or a number is out of range, or a layer has no finite thickness.
+    RuntimeError
+        If a ray was lost: no way out and nothing that absorbs.
+    """
+    rays = require_whole("number of rays", rays, 1, MOST_RAYS)
+    layers = _ready(layers)
+    tasks = ((layers, min(CHUNK, rays - first), (*key, first)) for first in range(0, rays, CHUNK))
+    parts = list(
+        _in_order(lambda task: _recorded(task[0], task[1], angle, task[2]), tasks, threads)
+    )
+    return Paths(
+        layers=layers,
+        launched=rays,
+        distance=np.concatenate([each.distance for each in parts]),
+        sums=np.concatenate([each.sums for each in parts]),
+    )
+
+
+def weights(paths: Paths, layers: Stack) -> np.ndarray:
+    """Weight (N,) of each path in another stack: the ratio of its densities there and where walked.
+
+    The sum of weights over `paths.launched` is the other's subsurface reflectance, and its exit
+    distances are `paths.distance` times the ratio of thicknesses.
+
+    Raises
+    ------
+    InputError
+        If the stacks differ in more than absorption, amounts of what scatters, and one factor on
+        all thicknesses, or the other has scatterers where the paths could meet none.
+    """
+    layers = _ready(layers)
+    _require_alike([paths.layers, layers])
+    for name in ("encounter", "rayleigh", "scattering"):
+        for mine, other in zip(paths.layers.layers, layers.layers, strict=True):
+            if getattr(mine, name) == 0.0 < getattr(other, name):
+                raise InputError(
+                    f"{name} is {getattr(other, name):g} /cm in a layer where paths were walked "
+                    "with 0; allowed there is 0."
+                )
+    layers = rescaled(layers, _thickness(paths.layers))
+    change = log_density(layers) - log_density(paths.layers)
+    return np.exp(paths.table @ change.ravel())
+
+
+def effective_sample_size(weights: np.ndarray) -> float:
+    """(sum of w)^2 / sum of w^2 (L. Kish 1965, "Survey Sampling"); 0 where all weights are 0."""
+    weights = np.asarray(weights, dtype=float)
+    return float(_effective(weights.sum(), np.sum(weights**2)))
+
+
+def _effective(total: np.ndarray, squares: np.ndarray) -> np.ndarray:
+    return np.divide(total**2, squares, out=np.zeros_like(squares), where=np.asarray(squares) > 0)
+
+
+def log_density(layers: Stack) -> np.ndarray:
+    """Coefficients (L, len(SUMS)) of the logarithm of a path's density in a stack.
+
+    The logarithm is their product with the path's sums, plus what does not change with the
+    amounts of absorbers and scatterers.
+    """
+
+    def logarithm(number: float) -> float:
+        return float(np.log(max(number, LEAST)))
+
+    return np.array(
+        [
+            (
+                -each.absorption - each.scattering,
+                -each.rayleigh,
+                logarithm(each.rayleigh),
+                logarithm(each.scattering),
+                -each.encounter,
+                logarithm(each.encounter),
+                -each.melanosome_depth if each.encounter > 0.0 else 0.0,
+            )
+            for each in layers.layers
+        ]
+    )
+
+
+def rescaled(layers: Stack, thickness: float) -> Stack:
+    """The stack squeezed to another thickness, in cm, with as much of everything in every layer.
+
+    Lengths of paths scale with it. As melanosomes keep their size, more of them would have to be
+    drawn again, and so fewer be met: their coefficient makes up for that
+    (`hylios.adding.melanosomes`; for light that melanosomes hardly turn or absorb).
+    """
+    factor = _thickness(layers) / thickness
+    if factor == 1.0:
+        return layers
+    by_diameter = layers.readings["complex_melanosomes"] == "diameter"
+
+    def squeezed(layer: Layer) -> Layer:
+        result = replace(
+            layer,
+            thickness=layer.thickness / factor,
+            absorption=layer.absorption * factor,
+            encounter=layer.encounter * factor,
+            rayleigh=layer.rayleigh * factor,
+            scattering=layer.scattering * factor,
+        )
+        if layer.encounter == 0.0:
+            return result
+        met = _met(layer, by_diameter) * factor
+        for _ in range(SQUEEZES):
+            encounter = result.encounter * met / _met(result, by_diameter)
+            result = replace(result, encounter=encounter)
+        return result
+
+    return replace(layers, layers=tuple(squeezed(each) for each in layers.layers))
+
+
+def _met(layer: Layer, by_diameter: bool) -> float:
+    """Coefficient, in 1/cm, with which light meets melanosomes that hardly change it."""
+    rate, _, twice = encounters(layer, 1.0, by_diameter)
+    return max(rate * (1.0 + twice), LEAST)
+
+
+def profiles(
+    stacks: Sequence[Stack],
+    *,
+    error: float = 0.01,
+    angle: float = 8.0,
+    key: tuple[int, ...] = (1,),
+    threads: int | None = None,
+) -> Profiles:
+    """Diffusion profiles of stacks of one geometry, from shared paths.
+
+    The result does not depend on the number of threads.
+
+    Parameters
+    ----------
+    stacks : sequence of Stack
+        Of finite thickness. They may differ in absorption, in amounts of what scatters, and by
+        one factor on all thicknesses.
+    error : float
+        Largest standard error of the cumulative profile that is asked for, .0005 to .1: each
+        stack gets that, and an effective sample size of .25 / `error`^2 or more, unless hardly
+        any light comes out of it.
+    angle : float
+        Of incidence, in degrees, 0 to 89.99.
+    key : tuple of int
+        Names the streams of random numbers.
+    threads : int, optional
+        All cores by default.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range or the stacks differ in more.
+    """
+    limit = 0.25 / require_range("error of a profile", error, 5e-4, 0.1) ** 2
+    stacks = [_ready(each) for each in stacks]
+    if not stacks:
+        raise InputError("profiles need at least 1 stack.")
+    _require_alike(stacks)
+    groups = [
+        _shared(stacks[first : first + TOGETHER], limit, angle, (*key, first), threads)
+        for first in range(0, len(stacks), TOGETHER)
+    ]
+    return Profiles(
+        light=np.concatenate([each.light for each in groups]),
+        squares=np.concatenate([each.squares for each in groups]),
+        rays=np.concatenate([each.rays for each in groups]),
+        anew=np.concatenate([each.anew for each in groups]),
+    )
+
+
+def skin_profiles(
+    specimens: Sequence[Specimen],
+    wavelengths: Iterable[float],
+    *,
+    error: float = 0.01,
+    angle: float = 8.0,
+    seed: int = 1,
+    threads: int | None = None,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> list[Profiles]:
+    """Profiles of a specimen's tanning states (`hylios.specimen.tanned`) at each wavelength in nm.
+
+    Parameters and errors as in `profiles` and `hylios.transport.simulate.spectrum`. A wavelength's
+    result does not depend on which others are asked for.
+    """
+    return [
+        profiles(
+            [skin_stack(each, wavelength, known=known, chosen=chosen) for each in specimens],
+            error=error,
+            angle=angle,
+            key=skin_key(seed, wavelength),
+            threads=threads,
+        )
+        for wavelength in require_wavelengths(wavelengths, known or figures())
+    ]
+
+
+def _shared(
+    stacks: list[Stack], limit: float, angle: float, key: tuple[int, ...], threads: int | None
+) -> Profiles:
+    """Profiles of stacks with an effective sample size of `limit` or more, as far as can be."""
+    mixture = _Mixture.of([_straightened(each) for each in stacks])
+    rays = allocated(*_tried(mixture, angle, (*key, 0), threads), FIRST * limit)
+    found = _pooled(mixture, rays, angle, (*key, 1), threads)
+    missing = _missing(found, limit)
+    more = np.ceil(rays * missing.max()).astype(int)
+    alone = limit / np.maximum(found.subsurface, 1.0 / MOST_PER_PATH)
+    if 0 < more.sum() <= alone[missing > 0.0].sum():
+        found = _joined(found, _pooled(mixture, more, angle, (*key, 2), threads))
+        missing = _missing(found, limit)
+    for number in np.flatnonzero(missing):
+        exits, spent = _counted(stacks[number], limit, angle, (*key, 3, int(number)), threads)
+        found.light[number], found.squares[number] = exits / spent, exits / spent**2
+        found.rays[number] += spent
+        found.anew[number] = True
+    return found
+
+
+def _missing(found: Profiles, limit: float) -> np.ndarray:
+    """Of the rays spent, how many more each state needs for its limit, (S,); 0 where none.
+
+    Weights that go with distance can make the profile less sure than so many equal paths would.
+    """
+    error = np.maximum(found.standard_error.max(axis=1), 1e-9)
+    reached = np.minimum(found.effective_sample_size, (0.5 / error) ** 2)
+    needed = SPARE * limit / np.maximum(reached, 1e-6 * limit)
+    return np.where(reached < limit, needed - 1.0, 0.0)
+
+
+def _joined(first: Profiles, second: Profiles) -> Profiles:
+    """Profiles from the rays of both, which have been spent in the same proportions."""
+    both = first.rays.sum() + second.rays.sum()
+    share, rest = first.rays.sum() / both, second.rays.sum() / both
+    return Profiles(
+        light=share * first.light + rest * second.light,
+        squares=share**2 * first.squares + rest**2 * second.squares,
+        rays=first.rays + second.rays,
+        anew=first.anew,
+    )
+
+
+@dataclass(frozen=True)
+class _Mixture:
+    """S states in one geometry, and the stacks in which paths are walked for them, one each.
+
+    Attributes
+    ----------
+    walked : tuple of Stack
+    columns : (C,) int array
+        Of a path's sums, those that matter.
+    proposed, wanted : (C, S) arrays
+        `log_density` of the walked stacks and of the states, less that of the first walked one.
+    scale : (S,) array
+        Thickness of the states relative to that of the walked stacks.
+    """
+
+    walked: tuple[Stack, ...]
+    columns: np.ndarray
+    proposed: np.ndarray
+    wanted: np.ndarray
+    scale: np.ndarray
+
+    @classmethod
+    def of(cls, stacks: Sequence[Stack]) -> "_Mixture":
+        """Of states of any thickness; paths are walked in the middle one's."""
+        thickness = np.array([_thickness(each) for each in stacks])
+        middle = float(np.sort(thickness)[thickness.size // 2])
+        states = [rescaled(each, middle) for each in stacks]
+        walked = tuple(_lightened(each) for each in states)
+        proposed, wanted = (
+            np.array([log_density(each).ravel() for each in some]).T for some in (walked, states)
+        )
+        first = proposed[:, :1]
+        proposed, wanted = proposed - first, wanted - first
+        columns = np.flatnonzero(proposed.any(axis=1) | wanted.any(axis=1))
+        return cls(walked, columns, proposed[columns], wanted[columns], thickness / middle)
+
+    def densities(self, paths: Paths) -> tuple[np.ndarray, np.ndarray]:
+        """Densities (N, S) of paths in the walked stacks and in the states, to a factor each."""
+        sums = paths.table[:, self.columns]
+        proposed, wanted = sums @ self.proposed, sums @ self.wanted
+        largest = proposed.max(axis=1, keepdims=True)
+        return np.exp(proposed - largest), np.exp(wanted - largest)
+
+
+def _tried(
+    mixture: _Mixture, angle: float, key: tuple[int, ...], threads: int | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Densities (N, S) of some paths in walked stacks and states, over that of being tried.
+
+    As many rays are tried in every stack.
+    """
+    found: list[tuple[np.ndarray, np.ndarray]] = []
+    for turn in range(PILOT_ROUNDS):
+        keys = ((*key, turn, number) for number in range(len(mixture.walked)))
+
+        def one(task: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+            return mixture.densities(_recorded(mixture.walked[task[-1]], PILOT_RAYS, angle, task))
+
+        found += _in_order(one, keys, threads)
+        if sum(each.shape[0] for each, _ in found) >= PILOT_PATHS:
+            break
+    proposed = np.concatenate([each for each, _ in found])
+    wanted = np.concatenate([each for _, each in found])
+    rounds = len(found) // len(mixture.walked)
+    tried = rounds * PILOT_RAYS * proposed.sum(axis=1, keepdims=True)
+    return proposed / tried, wanted / tried
+
+
+def allocated(proposed: np.ndarray, wanted: np.ndarray, limit: float) -> np.ndarray:
+    """How many rays to spend in each of A walked stacks, (A,) int.
+
+    With n_a rays in stack a, state s has, for each path of density p_s, the weight
+    p_s / sum(n_a q_a), and an effective sample size that follows from the mean of its square. Its
+    inverse is convex in n. Found are the fewest rays for which no state has less than `limit`: by
+    the multiplicative iteration of optimal design for n, and one of the same kind for how much
+    each state has to say.
+
+    Parameters
+    ----------
+    proposed, wanted : (N, A) and (N, S) arrays
+        Densities of N tried paths in the walked stacks and in the states, each over the density
+        of that path's being tried: their sums are shares of light.
+    limit : float
+        Effective sample size.
+    """
+    light = wanted.sum(axis=0)
+    seen = light > 0.0
+    if not seen.any():
+        return np.zeros(proposed.shape[1], int)
+    scaled = (wanted[:, seen] / light[seen]) ** 2
+    rays = np.full(proposed.shape[1], 1.0)
+    say = np.full(scaled.shape[1], 1.0 / scaled.shape[1])
+    for _ in range(STEPS):
+        pooled = proposed @ rays
+        needed = (1.0 / pooled) @ scaled
+        say *= needed / needed.max()
+        say /= say.sum()
+        rays *= np.sqrt((scaled @ say / pooled**2) @ proposed)
+        rays /= rays.sum()
+    rays[rays < FEWEST] = 0.0
+    most = ((1.0 / np.maximum(proposed @ rays, LEAST)) @ scaled).max()
+    return np.ceil(rays * min(most, MOST_PER_PATH * rays.size) * limit).astype(int)
+
+
+def _pooled(
+    mixture: _Mixture, rays: np.ndarray, angle: float, key: tuple[int, ...], threads: int | None
+) -> Profiles:
+    """Profiles from so many rays in each walked stack; paths are weighted as they come."""
+    tasks = (
+        (mixture.walked[number], min(CHUNK, int(rays[number]) - first), (*key, number, first))
+        for number in np.flatnonzero(rays)
+        for first in range(0, int(rays[number]), CHUNK)
+    )
+
+    def piece(task):
+        return _weighted(mixture, rays, _recorded(task[0], task[1], angle, task[2]))
+
+    total = np.zeros((2, mixture.scale.size, DISTANCE_EDGES.size))
+    for each in _in_order(piece, tasks, threads):
+        total += each
+    return Profiles(total[0], total[1], rays, np.zeros(rays.size, bool))
+
+
+def _weighted(mixture: _Mixture, rays: np.ndarray, paths: Paths) -> np.ndarray:
+    """Sums (2, S, B) of weights of paths, and of their squares, by exit distance."""
+    total = np.zeros((2, mixture.scale.size, DISTANCE_EDGES.size))
+    order = np.argsort(paths.distance, kind="stable")
+    for first in range(0, order.size, BLOCK):
+        some = order[first : first + BLOCK]
+        block = replace(paths, distance=paths.distance[some], sums=paths.sums[some])
+        proposed, wanted = mixture.densities(block)
+        weight = wanted / (proposed @ rays)[:, None]
+        starts = np.searchsorted(block.distance, DISTANCE_EDGES / mixture.scale[:, None])
+        for row, each in zip(total, (weight, weight**2), strict=True):
+            up_to = np.concatenate([np.zeros((1, mixture.scale.size)), np.cumsum(each, axis=0)])
+            before = np.take_along_axis(up_to.T, starts, axis=1)
+            row += np.diff(before, axis=1, append=up_to[-1][:, None])
+    return total
+
+
+def _counted(
+    layers: Stack, limit: float, angle: float, key: tuple[int, ...], threads: int | None
+) -> tuple[np.ndarray, int]:
+    """Exits (B,) of one stack's own rays, at least `limit` in all, and how many rays it took.
+
+    Fewer exits where hardly any light comes out.
+    """
+    size = int(np.clip(limit / PIECES, 256, CHUNK))
+
+    def piece(first: int) -> np.ndarray:
+        return count(layers, rays=size, angle=angle, key=(*key, first)).exits
+
+    exits, spent = np.zeros(DISTANCE_EDGES.size, int), 0
+    while exits.sum() < limit and spent < MOST_PER_PATH * limit:
+        firsts = range(spent, spent + PIECES * size, size)
+        exits += sum(in_threads(piece, iter(firsts), _threads(threads)))
+        spent += PIECES * size
+    return exits, spent
+
+
+def _recorded(layers: Stack, rays: int, angle: float, key: tuple[int, ...]) -> Paths:
+    """Paths of rays from one stream of random numbers."""
+    require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
+    places = np.empty((rays, 2))
+    sums = np.zeros((rays + 1, len(layers.layers), len(SUMS)))
+    arrival = float(np.sin(np.radians(angle))), float(np.cos(np.radians(angle)))
+    kept = record_paths(*kernel_arguments(layers), *arrival, stream(*key), rays, places, sums)
+    if kept < 0:
+        raise RuntimeError(NO_END)
+    return Paths(layers, rays, 10.0 * np.hypot(*places[:kept].T), sums[:kept])
+
+
+def _in_order(function: Callable, tasks: Iterable, threads: int | None):
+    """Results of tasks in their order, whichever ends first, so that sums are the same."""
+    waiting, due = {}, 0
+    numbered = in_threads(
+        lambda task: (task[0], function(task[1])), iter(enumerate(tasks)), _threads(threads)
+    )
+    for number, result in numbered:
+        waiting[number] = result
+        while due in waiting:
+            yield waiting.pop(due)
+            due += 1
+
+
+def _threads(threads: int | None) -> int:
+    return require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
+
+
+def _ready(layers: Stack) -> Stack:
+    """The stack with survival in melanosomes tabulated.
+
+    Raises
+    ------
+    InputError
+        If a layer has no finite thickness.
+    """
+    for each in layers.layers:
+        require_range("thickness of a layer", each.thickness, 0.0, 1e9, "cm")
+    missing = any(each.encounter > 0.0 and each.survival < 0.0 for each in layers.layers)
+    return with_survival(layers) if missing else layers
+
+
+def _thickness(layers: Stack) -> float:
+    return float(sum(each.thickness for each in layers.layers))
+
+
+def _lightened(layers: Stack) -> Stack:
+    """The stack with `LIGHTER` of its absorption."""
+    return replace(
+        layers,
+        layers=tuple(
+            replace(
+                each,
+                absorption=LIGHTER * each.absorption,
+                survival=each.survival**LIGHTER if each.encounter > 0.0 else each.survival,
+            )
+            for each in layers.layers
+        ),
+    )
+
+
+def _straightened(layers: Stack) -> Stack:
+    """The stack with melanosomes that turn no light as absorbers, as they are for light then."""
+    if layers.scattering_angle > 0.0:
+        return layers
+    by_diameter = layers.readings["complex_melanosomes"] == "diameter"
+
+    def absorbing(layer: Layer) -> Layer:
+        if layer.encounter == 0.0:
+            return layer
+        rate, once, twice = encounters(layer, layer.survival, by_diameter)
+        lost = rate * (1.0 - once - twice)
+        return replace(layer, absorption=layer.absorption + lost, encounter=0.0)
+
+    return replace(layers, layers=tuple(absorbing(each) for each in layers.layers))
+
+
+def _require_alike(stacks: Sequence[Stack]) -> None:
+    """Raise InputError where stacks differ in more than paths can be weighted for."""
+    first = stacks[0]
+    for each in stacks[1:]:
+        if len(each.layers) != len(first.layers) or _surroundings(each) != _surroundings(first):
+            raise InputError(
+                "stacks that share paths differ in layers, surroundings or readings; allowed are "
+                "differences in absorption, amounts of scatterers, and one factor on thickness."
+            )
+        ratio = _thickness(each) / _thickness(first)
+        for own, other in zip(first.layers, each.layers, strict=True):
+            if abs(other.thickness - ratio * own.thickness) > 1e-9 * other.thickness:
+                raise InputError(
+                    f"a layer's thickness is {other.thickness:g} cm in one of the stacks that "
+                    f"share paths; allowed there is {ratio * own.thickness:g} cm."
+                )
+
+
+def _surroundings(layers: Stack) -> tuple:
+    """What of a stack must be the same for paths to be shared."""
+    return (
+        layers.roughness,
+        layers.lambertian_floor,
+        layers.floor_reflectance,
+        layers.index_above,
+        layers.index_below,
+        layers.melanin_index,
+        layers.scattering_angle,
+        tuple(sorted(layers.readings.items())),
+        tuple(
+            (each.refractive_index, each.anisotropy, each.semi_minor, each.complex_radius)
+            for each in layers.layers
+        ),
+    )

@@ -1,0 +1,109 @@
+"""How accurately a table is built, and what of a scene it is for."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.adding.solver import NODES
+from hylios.errors import InputError, require_range, require_whole
+from hylios.quadrature import FEWEST, MOST
+from hylios.table import INTERPOLATIONS
+
+VISIBLE = "visible"
+"""The band that makes colours and the profile of a shader."""
+
+BANDS_NM = (365.0, 1100.0, 1650.0)
+"""The thesis's wavelengths in the ultraviolet and the infrared (figures 6.8 to 6.11)."""
+
+MOST_KNOTS, MOST_AXES, MOST_STATES = 100, 4, 20_000
+MOST_BANDS = 100
+FIRST_NM, LAST_NM = 250.0, 2500.0
+"""Of the spectral figures."""
+
+FEWEST_NODES, MOST_NODES = 6, 200
+LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR = 5e-4, 0.1
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What a table holds, and how accurately.
+
+    Attributes
+    ----------
+    knots : tuple of int
+        Numbers of knots on the principal axes of the tanning states.
+    colour_wavelengths : int
+        From which colours are made (`hylios.quadrature.skin_quadrature`); 0 for no colours.
+    bands : tuple of float
+        Single wavelengths in nm, whose reflectance the table holds.
+    profile_error : float
+        Standard error of the cumulative diffusion profile at a wavelength; 0 for no profile.
+    profile_wavelengths : int
+        From which the colour channels' profiles are made.
+    nodes : int
+        Directions of the deterministic solver.
+    interpolation : str
+        How the table is read between its knots.
+    half : bool
+        Whether the file holds numbers of 16 bits.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range, or nothing is asked for.
+    """
+
+    knots: tuple[int, ...]
+    colour_wavelengths: int = 8
+    bands: tuple[float, ...] = BANDS_NM
+    profile_error: float = 0.006
+    profile_wavelengths: int = 8
+    nodes: int = NODES
+    interpolation: str = "pchip"
+    half: bool = False
+
+    def __post_init__(self):
+        require_whole("number of axes", len(self.knots), 1, MOST_AXES)
+        for count in self.knots:
+            require_whole("number of knots", count, 1, MOST_KNOTS)
+        require_range("number of states", self.states, 1, MOST_STATES)
+        if self.colour_wavelengths != 0:
+            require_whole("number of wavelengths", self.colour_wavelengths, FEWEST, MOST)
+        elif not self.bands:
+            raise InputError("a table without the visible has no band; at least one is needed.")
+        require_whole("number of the profile's wavelengths", self.profile_wavelengths, FEWEST, MOST)
+        require_whole("number of bands", len(self.bands), 0, MOST_BANDS)
+        for band in self.bands:
+            require_range("band", band, FIRST_NM, LAST_NM, "nm")
+        if len({f"{band:g}" for band in self.bands}) < len(self.bands):
+            listed = ", ".join(f"{band:g}" for band in self.bands)
+            raise InputError(f"bands are {listed} nm; allowed is each once.")
+        if self.profile_error != 0.0:
+            require_range(
+                "error of the profile", self.profile_error, LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR
+            )
+        require_whole("number of nodes", self.nodes, FEWEST_NODES, MOST_NODES)
+        if self.interpolation not in INTERPOLATIONS:
+            raise InputError(
+                f"interpolation is {self.interpolation!r}; allowed are {', '.join(INTERPOLATIONS)}."
+            )
+
+    @property
+    def has_profile(self) -> bool:
+        """Whether the table holds widths of the diffusion profile."""
+        return self.colour_wavelengths > 0 and self.profile_error > 0.0
+
+    @property
+    def states(self) -> int:
+        """Number of knots in all."""
+        return int(np.prod(self.knots))
+
+
+PRESETS = {
+    "preview": Settings(knots=(5,), profile_error=0.05, profile_wavelengths=4),
+    "standard": Settings(knots=(11, 3, 3, 2), profile_error=0.01),
+    "reference": Settings(
+        knots=(17, 5, 5, 3), colour_wavelengths=16, profile_error=0.002, nodes=40
+    ),
+}
+"""Points on the front of time against error that `lut-builder trade` measures."""

@@ -1,0 +1,228 @@
+"""What a table holds, against the solver and the random walk; and what is left out of it."""
+
+import json
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+from hylios.adding.spectrum import spectrum as solved
+from hylios.adding.ultraviolet import tabulated
+from hylios.phototypes import phototype
+from hylios.profile import burley_width
+from hylios.quadrature import skin_quadrature
+from hylios.skin import skin
+from hylios.specimen import SPECIMENS
+from hylios.table import from_stored, read_table, to_stored
+from hylios.tanning import Exposures
+from hylios.transport.simulate import DISTANCE_EDGES
+from hylios.transport.simulate import spectrum as walked
+from lut_builder.build import assembled, build, in_threads, requested
+from lut_builder.check import check, settings_of, skin_of
+from lut_builder.cli import main
+from lut_builder.pieces import ANGLE, pieces
+from lut_builder.schedule import reached_states, read_schedule
+from lut_builder.settings import PRESETS, Settings
+
+SKIN = skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
+SMALL = Settings(knots=(3, 2), colour_wavelengths=5, profile_error=0.02, profile_wavelengths=4)
+COLOURS = Settings(knots=(2,), colour_wavelengths=4, bands=(365.0,), profile_error=0.0)
+FINE = Settings(knots=(14, 5, 4), colour_wavelengths=4, bands=(), profile_error=0.0)
+SUN = Exposures([0, 30], [6.0, 4.0])
+
+
+@pytest.fixture(scope="module")
+def small():
+    return build(SKIN, SMALL)
+
+
+@pytest.mark.parametrize("place", [(0, 0), (2, 1)])
+def test_an_entry_is_the_solution_of_its_state(small, place):
+    """The same solver's, alone: colours, bands and what the surface reflects."""
+    state = small.axes.knot_states()[place]
+    few = skin_quadrature(SMALL.colour_wavelengths)
+    wavelengths = [*few.wavelengths, *SMALL.bands]
+    direct = solved(SKIN.tanned(state[:3], state[3]), wavelengths, angle=ANGLE)
+    expected = {
+        "subsurface_colour": few.weights @ direct.subsurface[:-3],
+        "total_colour": few.weights @ direct.total[:-3],
+        "band_reflectance": direct.total[-3:],
+    }
+    for name, values in expected.items():
+        assert small.planes[name][place] == pytest.approx(values, rel=1e-12)
+
+
+def test_widths_are_those_of_a_random_walk(small):
+    """Of the walk's own rays, a million: its light within the width is known to 1e-3. The table's
+    is within four standard errors of the cumulative profile: a false alarm in 5000 runs."""
+    place = (2, 1)
+    state = small.axes.knot_states()[place]
+    few = skin_quadrature(SMALL.profile_wavelengths)
+    alone = walked(
+        SKIN.tanned(state[:3], state[3]), few.wavelengths, angle=ANGLE, rays=250_000, seed=77
+    )
+    for channel, weights in enumerate(few.weights):
+        light = weights @ (alone.exit_counts / alone.rays)
+        within = np.cumsum(light) / light.sum()
+        width = small.planes["profile_width"][place][channel]
+        own = burley_width(DISTANCE_EDGES, np.maximum(light, 0.0))
+        apart = np.ptp(np.interp([width, own], DISTANCE_EDGES[1:], within[:-1]))
+        error = small.planes["profile_error"][place][channel]
+        assert 0.0 < error < 0.1
+        assert apart < 4.0 * np.hypot(error, 1e-3)
+
+
+def test_profiles_are_as_sure_as_was_asked(small):
+    """Of single wavelengths; a channel is made of some, some negative."""
+    assert small.planes["profile_effective_samples"].min() > 50.0
+    assert small.planes["profile_error"].max() < 0.08
+    finer = build(SKIN, replace(SMALL, colour_wavelengths=4, bands=(), profile_error=0.005))
+    ratio = small.planes["profile_error"] / finer.planes["profile_error"]
+    assert 2.5 < np.median(ratio) < 6.0
+
+
+def test_the_header_holds_what_the_untanned_skin_absorbs(small):
+    told, expected = small.provenance["absorptance"], tabulated(SKIN.specimen)
+    assert told["wavelengths_nm"] == expected.wavelengths.tolist()
+    assert told["values"] == pytest.approx(expected.values, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("change", "planes"),
+    [
+        (
+            {"bands": ()},
+            {"subsurface_colour", "total_colour", "colour_error"},
+        ),
+        ({"colour_wavelengths": 0, "profile_error": 0.05}, {"band_reflectance"}),
+        (
+            {"profile_error": 0.05},
+            {
+                "subsurface_colour",
+                "total_colour",
+                "colour_error",
+                "band_reflectance",
+                "profile_width",
+                "profile_error",
+                "profile_effective_samples",
+            },
+        ),
+    ],
+)
+def test_a_table_holds_what_is_asked_for(change, planes):
+    table = build(SKIN, replace(COLOURS, **change))
+    assert set(table.planes) == planes
+    assert set(from_stored(to_stored(table)).planes) == planes
+
+
+def test_what_is_left_out_does_not_change_the_rest(small):
+    """Colours without profile and bands, and a single band, are the same numbers."""
+    alone = build(SKIN, replace(SMALL, bands=(), profile_error=0.0))
+    for name, values in alone.planes.items():
+        assert np.array_equal(values, small.planes[name])
+    band = build(SKIN, replace(SMALL, colour_wavelengths=0, bands=(1100.0,)))
+    assert np.array_equal(
+        band.planes["band_reflectance"][..., 0], small.planes["band_reflectance"][..., 1]
+    )
+
+
+def test_settings_survive_the_header(small):
+    assert settings_of(from_stored(to_stored(small))) == SMALL
+    for settings in PRESETS.values():
+        provenance = json.loads(json.dumps({"settings": asdict(settings)}))
+        assert settings_of(replace(small, provenance=provenance)) == settings
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "pchip"])
+def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation):
+    """Bit for bit at all states that it leads to, though some knots were not computed."""
+    settings = replace(FINE, interpolation=interpolation)
+    reached = reached_states(SKIN, SUN, 20.0)
+    request = requested(SKIN, settings, reached=reached)
+    part, whole = assembled(request, in_threads(request)), build(SKIN, settings)
+    count = int(request.needed.sum())
+    assert 0 < count < request.needed.size
+    assert sum(each.last - each.first for each in pieces(request)) == count
+    assert part.provenance["states_computed"] == count
+    assert part.planes["computed"].sum() == count and "computed" not in whole.planes
+    assert np.all(np.abs(part.plane("computed", reached) - 1.0) < 1e-12)
+    # The same planes together: sums over more columns may round otherwise.
+    found, expected = part.lookup(reached, list(whole.planes)), whole.lookup(reached)
+    for name, values in expected.items():
+        assert np.array_equal(found[name], values), name
+    assert not np.array_equal(part.planes["total_colour"], whole.planes["total_colour"])
+    states = check(part, count=5, seed=3).states
+    assert np.all(np.abs(part.plane("computed", states) - 1.0) < 1e-12)
+
+
+def test_a_schedule_s_knots_are_no_more_than_it_needs():
+    """Without one of the linear table's knots, some lookup where the sun leads is another."""
+    settings = replace(FINE, interpolation="linear")
+    reached = reached_states(SKIN, SUN, 20.0)
+    request = requested(SKIN, settings, reached=reached)
+    random = np.random.default_rng(1)
+    whole = build(SKIN, settings)
+    expected = whole.plane("total_colour", reached)
+    for place in np.argwhere(request.needed)[::12]:
+        other = whole.planes["total_colour"].copy()
+        other[tuple(place)] += random.random(3)
+        changed = replace(whole, planes={"total_colour": other})
+        assert not np.array_equal(changed.plane("total_colour", reached), expected)
+
+
+def test_a_schedule_through_the_shell(tmp_path, capsys):
+    path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
+    sun.write_text("# a day at the beach\nhour,melanogenesis_sed,thickening_sed\n0,6,5\n30,4,3\n")
+    read = read_schedule(sun)
+    assert read.hours.tolist() == [0, 30]
+    assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
+    quick = "--knots 9,5 --wavelengths 4 --bands visible --no-profile --interpolation linear"
+    command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
+    assert main(command.split()) == 0
+    said = capsys.readouterr().out
+    count = read_table(path).provenance["states_computed"]
+    assert f"the scene needs {count} of 45 states: {1 - count / 45:.0%} saved" in said
+    assert count < 45
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "has no column hour; it needs hour, melanogenesis_sed, thickening_sed."),
+        ("hour,melanogenesis_sed\n0,1\n", "has no column thickening_sed"),
+        ("hour,melanogenesis_sed,thickening_sed\n0,x,1\n", "melanogenesis_sed is 'x'; expected"),
+        ("hour,melanogenesis_sed,thickening_sed\n0,1\n", "thickening_sed is ''; expected a num"),
+        ("hour,melanogenesis_sed,thickening_sed\n-1,1,1\n", "hours of exposure are [-1.0]"),
+        ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "a dose is negative, not finite"),
+        ("\x00\n", "has no column hour"),
+    ],
+)
+def test_a_schedule_that_is_none_is_one_sentence(tmp_path, capsys, text, sentence):
+    sun = tmp_path / "sun.csv"
+    sun.write_text(text)
+    assert main(["build", "--schedule", str(sun), "-o", str(tmp_path / "t.exr")]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error and error.count("\n") == 1
+
+
+def test_a_schedule_s_days_are_limited(tmp_path, capsys):
+    sun = tmp_path / "sun.csv"
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    command = f"build --schedule {sun} --days 367 -o {tmp_path}/t.exr"
+    assert main(command.split()) == 2
+    assert "days of the scene is 367; allowed is 0 to 366." in capsys.readouterr().err
+
+
+def test_the_preview_is_good_enough_to_look_at():
+    table = build(phototype("III").skin, PRESETS["preview"])
+    found = check(table, count=40, seed=9).differences
+    assert found.mean() < 0.5 and found.max() < 1.5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["I", "III", "VI"])
+def test_the_standard_cannot_be_told_from_the_model(name):
+    table = build(phototype(name).skin, PRESETS["standard"])
+    assert skin_of(table) == phototype(name).skin
+    found = check(table, count=200, seed=9).differences
+    assert found.mean() < 0.1 and found.max() < 0.3

@@ -192,7 +192,7 @@ def test_a_schedule_through_the_shell(tmp_path, capsys):
         ("hour,melanogenesis_sed\n0,1\n", "has no column thickening_sed"),
         ("hour,melanogenesis_sed,thickening_sed\n0,x,1\n", "melanogenesis_sed is 'x'; expected"),
         ("hour,melanogenesis_sed,thickening_sed\n0,1\n", "thickening_sed is ''; expected a num"),
-        ("hour,melanogenesis_sed,thickening_sed\n-1,1,1\n", "hours of exposure are [-1.0]"),
+        ("hour,melanogenesis_sed,thickening_sed\n-1,1,1\n", "an hour of exposure is -1"),
         ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "a dose is negative, not finite"),
         ("\x00\n", "has no column hour"),
     ],

@@ -1,11 +1,13 @@
 """Checking a table: states between its knots, computed directly."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
-from hylios.adding.spectrum import spectrum as solved
+from hylios.adding import solve
 from hylios.colour import difference, rec709_weights
 from hylios.errors import InputError
 from hylios.quadrature import MOST, skin_quadrature
@@ -13,7 +15,7 @@ from hylios.skin import UNTANNED, Skin
 from hylios.specimen import Specimen
 from hylios.spectra import Figures, figures, replaced
 from hylios.table import SkinTable, melanin_dynamics
-from hylios.transport.simulate import Progress
+from hylios.tissue import stack
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.pieces import ANGLE
 from lut_builder.settings import Settings
@@ -23,6 +25,9 @@ FINE = np.arange(400.0, 701.0, 5.0)
 """Wavelengths in nm of a direct colour without noise."""
 
 NOISE_DRAWS = 200
+
+Progress = Callable[[float], object]
+"""Told how many more states are done, be it a part of one."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +140,7 @@ def check(
     rays : int
         Per wavelength of a random walk; 0 for the deterministic solver, every 5 nm.
     progress : callable, optional
-        Told 1 for each state as it ends.
+        Told the number of states, or the part of one, that was done.
 
     Raises
     ------
@@ -143,38 +148,69 @@ def check(
         If the table's header does not say for what skin and how it was built, a figure of the
         user's own that it names cannot be read, or the table has no colour or too few states.
     """
-    made_for, known = skin_of(table), figures_of(table)
-    chosen = table.provenance.get("readings")
+    made_for = skin_of(table)
     random = np.random.default_rng(seed)
     states = random.choice(_between_knots(table, reachable_states(made_for, 100, seed)), count)
-    looked_up = table.plane("total_colour", states)
-    differences, noise = [], []
-    for index, (state, seen) in enumerate(zip(states, looked_up, strict=True)):
-        specimen = made_for.tanned(state[:3], state[3])
-        if rays:
-            few = skin_quadrature(MOST)
-            own_seed = int(np.random.SeedSequence((seed, index)).generate_state(1)[0])
-            found = walked(
-                specimen,
-                few.wavelengths,
-                angle=ANGLE,
-                rays=rays,
-                seed=own_seed,
-                threads=threads,
-                known=known,
-                chosen=chosen,
-            )
-            direct = few.weights @ found.total
-            covariance = (few.weights * found.standard_error**2) @ few.weights.T
-            draws = random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS)
-            noise.append(difference(direct + draws, np.broadcast_to(direct, draws.shape)))
-        else:
-            found = solved(specimen, FINE, angle=ANGLE, known=known, chosen=chosen)
-            direct = rec709_weights(FINE) @ found.total
-        differences.append(difference(seen, direct))
-        if progress is not None:
-            progress(1)
-    return Check(states, np.array(differences), np.array(noise) if rays else None)
+    seen = table.plane("total_colour", states)
+    specimens = [made_for.tanned(state[:3], state[3]) for state in states]
+    model = figures_of(table), table.provenance.get("readings")
+    told = progress or (lambda share: None)
+    if not rays:
+        return Check(states, difference(seen, _solved(specimens, model, told)))
+    direct, spread = _walked(specimens, model, rays, seed, threads, told)
+    noise = [
+        difference(own + random.multivariate_normal(np.zeros(3), each, NOISE_DRAWS), own)
+        for own, each in zip(direct, spread, strict=True)
+    ]
+    return Check(states, difference(seen, direct), np.array(noise))
+
+
+Model = tuple[Figures, Mapping[str, str] | None]
+"""Spectral figures and readings."""
+
+
+def _solved(specimens: list[Specimen], model: Model, told: Progress) -> np.ndarray:
+    """Colours (N, 3) by the solver, wavelength by wavelength: so it is fastest."""
+    known, chosen = model
+    total = np.empty((FINE.size, len(specimens)))
+    # The matrices are small: threads of linear algebra would cost ten times what they bring.
+    with threadpool_limits(1, "blas"):
+        for row, wavelength in zip(total, FINE, strict=True):
+            stacks = [
+                stack(each, float(wavelength), known=known, chosen=chosen) for each in specimens
+            ]
+            row[:] = solve(stacks, ANGLE).total
+            told(len(specimens) / FINE.size)
+    return (rec709_weights(FINE) @ total).T
+
+
+def _walked(
+    specimens: list[Specimen],
+    model: Model,
+    rays: int,
+    seed: int,
+    threads: int | None,
+    told: Progress,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Colours (N, 3) by the random walk, and their covariances (N, 3, 3)."""
+    known, chosen = model
+    few = skin_quadrature(MOST)
+    colours, spread = [], []
+    for index, specimen in enumerate(specimens):
+        found = walked(
+            specimen,
+            few.wavelengths,
+            angle=ANGLE,
+            rays=rays,
+            seed=int(np.random.SeedSequence((seed, index)).generate_state(1)[0]),
+            threads=threads,
+            known=known,
+            chosen=chosen,
+        )
+        colours.append(few.weights @ found.total)
+        spread.append((few.weights * found.standard_error**2) @ few.weights.T)
+        told(1)
+    return np.array(colours), np.array(spread)
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:

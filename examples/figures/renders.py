@@ -17,25 +17,30 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from examples.figures import report, shots
-from examples.figures.light import RAYS_AS_LONG, Effort, Task, Tick
+from examples.figures.light import Effort, Task, Tick
 from examples.figures.shots import UV, Shot, Window
 from examples.figures.tans import Schedule, history
-from hylios.adding import spectrum as solved
-from hylios.colour import TINTS, difference, lab, linear_of_srgb, linear_rec709, srgb
+from hylios.adding import colours
+from hylios.colour import TINTS, difference, lab, linear_of_srgb, srgb
 from hylios.errors import InputError
 from hylios.pictures import write_figure
 from hylios.profile import burley_width
+from hylios.quadrature import MOST
 from hylios.skin import Skin
 from hylios.table import SkinTable
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import ANGLE, Settings, build, visible_wavelengths
+from lut_builder.build import build
 from lut_builder.exr import write_table
+from lut_builder.settings import Settings
 
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 
-SETTINGS = Settings(knots=(9, 2, 1), visible=visible_wavelengths(25.0), rays=12_500)
-"""Of the tables: the small preset with a quarter of its rays."""
+SETTINGS = Settings(knots=(9, 3, 2), profile_error=0.02, bands=())
+"""Of the tables: coarser than the standard preset."""
+
+TABLE_AS_LONG = 4000
+"""Wavelengths without noise that take as long as a table; it only serves the time left."""
 
 NEAR = 2.0
 """How near in L* a render is to come to its table; what the shader's surface keeps out is 1."""
@@ -53,7 +58,7 @@ def uv_table(table: SkinTable, made_for: Skin, effort: Effort) -> SkinTable:
         found = walked(
             made_for.tanned(state[:3], state[3]),
             np.array([UV_NM]),
-            angle=ANGLE,
+            angle=8.0,
             rays=UV_RAYS,
             seed=effort.seed,
             threads=effort.threads,
@@ -130,7 +135,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
     skins = len(shots.skins())
     return {
         "renders": Task(
-            work, skins * SETTINGS.total_rays / RAYS_AS_LONG + PICTURE_AS_LONG * len(wanted)
+            work, skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted)
         )
     }
 
@@ -159,13 +164,9 @@ def _colour_tables(wanted: Sequence[Shot]) -> list[str]:
 
 def table_of(made_for: Skin, effort: Effort, tick: Tick) -> SkinTable:
     """The table of a skin."""
-    return build(
-        made_for,
-        SETTINGS,
-        seed=effort.seed,
-        threads=effort.threads,
-        progress=lambda rays: tick(rays / RAYS_AS_LONG),
-    )
+    table = build(made_for, SETTINGS, seed=effort.seed, threads=effort.threads)
+    tick(TABLE_AS_LONG)
+    return table
 
 
 def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], tick: Tick) -> None:
@@ -211,9 +212,7 @@ def tanning_states(shot: Shot, made_for: Skin) -> np.ndarray:
 
 def colour(made_for: Skin, state: np.ndarray) -> np.ndarray:
     """Colour (3,) of the light out of skin in a tanning state (4,), without noise."""
-    wavelengths = np.array(SETTINGS.visible)
-    found = solved(made_for.tanned(state[:3], state[3]), wavelengths, angle=ANGLE)
-    return linear_rec709(wavelengths, found.subsurface)
+    return colours(made_for, state[None], count=MOST).subsurface[0]
 
 
 # ---------------------------------------------------------------- figures
@@ -282,7 +281,7 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
                 "",
                 f"{np.nanmin(off):+.2f} to {np.nanmax(off):+.2f}; table from the light model "
                 f"without noise: CIEDE2000 up to {apart.max():.2f}",
-                f"{SETTINGS.rays:,} rays",
+                "none but in profile widths",
                 f"within {NEAR:g}",
                 bool(np.nanmax(np.abs(off)) <= NEAR),
             )

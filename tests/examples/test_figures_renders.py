@@ -17,11 +17,11 @@ from examples.figures.renders import Panel, Result
 from hylios.colour import lab
 from hylios.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS
-from lut_builder.build import Settings
 from lut_builder.exr import write_table
+from lut_builder.settings import Settings
 
 STAND_IN = ("--stand-in", "--scale", "0.12", "--samples", "32")
-COARSE = Settings(knots=(3, 1, 1), visible=(450.0, 550.0, 650.0), rays=300)
+COARSE = Settings(knots=(3,), bands=(), profile_error=0.1, profile_wavelengths=4)
 """Enough for the path; nobody looks at the colours."""
 
 
@@ -276,7 +276,7 @@ def test_blender_that_fails_is_told_in_a_sentence(tmp_path):
 
 @pytest.mark.slow
 def test_all_figures_from_small_renders_of_the_stand_in(tmp_path, monkeypatch):
-    monkeypatch.setattr(renders, "SETTINGS", replace(renders.SETTINGS, rays=3000))
+    monkeypatch.setattr(renders, "SETTINGS", replace(renders.SETTINGS, profile_error=0.1))
     options = ("--stand-in", "--scale", "0.4", "--samples", "12")
     found = renders.rendered(shots.shots(), tmp_path, Effort(seed=1), lambda _: None, options)
     rows = renders.draw({"renders": found}, tmp_path)

@@ -1,4 +1,4 @@
-"""What this machine does: light, tanning and a small table, timed on this run.
+"""What this machine does: light, tanning and tables, timed on this run.
 
 python -m examples.bench
 """
@@ -13,11 +13,10 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
-from hylios.skin import skin
+from examples import bench_tables
 from hylios.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
-from lut_builder.build import PRESETS, build
 
 REPEATS = 5
 RAYS = {False: 20_000, True: 1000}
@@ -104,12 +103,7 @@ def main() -> None:
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
     report_tanning()
-    small = PRESETS["small"]
-    report(
-        f"table, preset small, {small.states} states, all cores",
-        timed(lambda: build(skin(SPECIMENS["S3"]), small), 1),
-        "s",
-    )
+    bench_tables.main([])
 
 
 if __name__ == "__main__":

@@ -31,9 +31,6 @@ from lut_builder.pieces import ANGLE, STATES_TOGETHER, computed, pieces
 from lut_builder.settings import Settings
 from lut_builder.states import choose_axes, reachable_states
 
-REPEATS = 3
-"""Of what is short; the fastest counts, as other work can only slow it down."""
-
 UNSEEN = np.array([401.7, 433.1, 468.3, 507.9, 541.7, 583.3, 611.9, 653.1])
 """Wavelengths in nm that no table uses, so that nothing of them is kept from before."""
 
@@ -88,7 +85,7 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def reflectances(
-    made_for: Skin, states: np.ndarray, wavelengths: Sequence[float], nodes: int
+    made_for: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int
 ) -> np.ndarray:
     """Total reflectance (N, W) of states by the solver, as pieces of a table compute it."""
     found = []
@@ -99,11 +96,14 @@ def reflectances(
     return np.concatenate(found)
 
 
-def solver_cost(made_for: Skin, nodes: int) -> Cost:
-    """What a reflectance costs with so many nodes."""
+def solver_cost(made_for: Skin, nodes: int, repeats: int) -> Cost:
+    """What a reflectance costs with so many nodes.
+
+    Of some runs the fastest counts: other work can only slow one down.
+    """
     states = reachable_states(made_for, 1, 1)[:: 240 // STATES_TOGETHER][:STATES_TOGETHER]
     firsts, each = [], []
-    for repeat in range(REPEATS):
+    for repeat in range(repeats):
         unseen = UNSEEN + 0.1 * repeat
         first, _ = timed(lambda at=unseen: reflectances(made_for, states[:1], at, nodes))
         rest, _ = timed(lambda at=unseen: reflectances(made_for, states, at, nodes))
@@ -112,14 +112,14 @@ def solver_cost(made_for: Skin, nodes: int) -> Cost:
     return Cost(min(each), max(min(firsts) - min(each), 0.0))
 
 
-def start_seconds(has_profile: bool) -> float:
-    """Seconds of a table of one state in a process of its own."""
+def start_seconds(has_profile: bool, repeats: int) -> float:
+    """Seconds of a table of one state in a process of its own; of some the fastest."""
     with tempfile.TemporaryDirectory() as folder:
         asked = ["build", "--preset", "preview", "--knots", "1", "--wavelengths", "4"]
         asked += ["--bands", "visible", "--force", "-o", str(Path(folder) / "start.exr")]
         asked += [] if has_profile else ["--no-profile"]
         seconds = []
-        for _ in range(REPEATS):
+        for _ in range(repeats):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             subprocess.run(
                 [sys.executable, "-m", "lut_builder.cli", *asked], check=True, capture_output=True
@@ -136,9 +136,7 @@ def walk(
 
     def light(state: np.ndarray) -> np.ndarray:
         specimen = made_for.tanned(state[:3], state[3])
-        return walked(
-            specimen, wavelengths, angle=ANGLE, rays=rays, seed=seed, threads=1
-        ).total
+        return walked(specimen, wavelengths, angle=ANGLE, rays=rays, seed=seed, threads=1).total
 
     light(states[0])  # compiles or loads the kernels
     seconds, found = timed(lambda: np.array([light(each) for each in states]))
@@ -180,7 +178,7 @@ def share_errors(widths: np.ndarray, fine: np.ndarray) -> np.ndarray:
     """
     distances = np.geomspace(0.05, 20.0, 200).reshape(-1, *(1,) * np.ndim(widths))
     seen = burley_share_within(distances, 1.0)
-    moved = burley_share_within(distances, np.asarray(widths) / np.asarray(fine))
+    moved = burley_share_within(distances * np.divide(fine, widths), 1.0)
     return np.abs(moved - seen).max(axis=0)
 
 
@@ -209,7 +207,7 @@ def profile_runs(
 
 def _expected(run: Run, error: float) -> float:
     """Seconds at most of the same profiles with another error: paths go with its inverse square."""
-    return run.shared * (run.error / error) ** 2
+    return run.serial + run.shared * (run.error / error) ** 2
 
 
 def half_against_full(

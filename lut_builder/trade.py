@@ -43,7 +43,7 @@ from lut_builder.measuring import (
     start_seconds,
     walk,
 )
-from lut_builder.settings import BANDS_NM, NODES, Settings
+from lut_builder.settings import BANDS_NM, MOST_PROFILE_ERROR, NODES, Settings
 from lut_builder.states import choose_axes
 
 BROAD = np.arange(250.0, 2501.0, 25.0)
@@ -76,6 +76,10 @@ class Extent:
         Of what errors are measured against.
     longest : float
         Seconds of a profile, about, beyond which it is not walked.
+    file_knots : tuple of int
+        Of a table that is written with numbers of 32 and of 16 bits.
+    repeats : int
+        Of what is short.
     """
 
     states: int = 200
@@ -89,12 +93,9 @@ class Extent:
         (9, 3),
         (7, 3, 2),
         (11, 3, 2),
-        (7, 3, 2, 2),
         (9, 3, 3, 2),
         (11, 3, 3, 2),
-        (11, 4, 3, 3),
         (13, 4, 4, 2),
-        (13, 5, 5, 3),
         (17, 5, 5, 3),
     )
     wavelengths: tuple[int, ...] = (4, 6, 8, 12, 16)
@@ -102,10 +103,12 @@ class Extent:
     profile_errors: tuple[float, ...] = (0.05, 0.03, 0.02, 0.01, 0.006, 0.004, 0.003, 0.002)
     profile_wavelengths: tuple[int, ...] = (4, 8)
     rays: tuple[int, ...] = (1_000, 10_000, 100_000)
-    fine_nodes: int = 40
+    fine_nodes: int = 36
     fine_profile_wavelengths: int = 12
     fine_profile_error: float = 0.001
-    longest: float = 30.0
+    longest: float = 6.0
+    file_knots: tuple[int, ...] = (11, 3, 3, 2)
+    repeats: int = 3
 
 
 FULL = Extent()
@@ -124,6 +127,8 @@ QUICK = Extent(
     fine_profile_wavelengths=6,
     fine_profile_error=0.02,
     longest=10.0,
+    file_knots=(5, 2),
+    repeats=1,
 )
 """To see that it works; what it says of a table is worth little."""
 
@@ -225,8 +230,8 @@ def notes(made_for: Skin, extent: Extent) -> list[str]:
         f"lut-builder trade, {date.today().isoformat()}: seconds are of this machine's processor",
         f"machine: {_processor()}, Python {platform.python_version()}, numpy {np.__version__}",
         f"skin: {made_for.specimen.name}, pigmentation {made_for.pigmentation}",
-        f"errors at {extent.states} reachable states that are no knots ({extent.profile_states} for "
-        "profiles), each table with 3 single bands",
+        f"errors: at {extent.states} reachable states that are no knots, "
+        f"{extent.profile_states} of them for profiles; tables have {len(BANDS_NM)} single bands",
     ]
 
 
@@ -248,13 +253,13 @@ def _steps(made_for: Skin, extent: Extent, states: np.ndarray, seed: int) -> dic
         return size, lambda: reflectances(made_for, some, wavelengths, nodes)
 
     steps: dict[Any, Step] = {
-        "start": (6.0, lambda: start_seconds(has_profile=True)),
-        "start without profile": (4.0, lambda: start_seconds(has_profile=False)),
+        "start": (6.0, lambda: start_seconds(True, extent.repeats)),
+        "start without profile": (4.0, lambda: start_seconds(False, extent.repeats)),
         "fine": light(states, _fine_wavelengths(), extent.fine_nodes),
         "broad": light(states[: extent.broad_states], BROAD, NODES),
     }
     for nodes in extent.nodes:
-        steps["cost", nodes] = 0.5, lambda n=nodes: solver_cost(made_for, n)
+        steps["cost", nodes] = 0.5, lambda n=nodes: solver_cost(made_for, n, extent.repeats)
     for nodes in {*extent.nodes, NODES}:
         steps["nodes", nodes] = light(states, few, nodes)
     for knots in extent.knots:
@@ -279,8 +284,8 @@ def _steps(made_for: Skin, extent: Extent, states: np.ndarray, seed: int) -> dic
                 made_for, made, extent.profile_errors, seen, extent.longest, seed
             ),
         )
-    table = Settings(max(extent.knots[:9], key=np.prod), profile_error=extent.profile_errors[-4:][0])
-    steps["half"] = 6.0, lambda: half_against_full(made_for, table, states, seed)
+    written = Settings(extent.file_knots, profile_error=MOST_PROFILE_ERROR)
+    steps["half"] = 6.0, lambda: half_against_full(made_for, written, states, seed)
     return steps
 
 
@@ -328,9 +333,7 @@ def _colour_errors(
     return errors
 
 
-def completed(
-    runs: list[Run], fine: np.ndarray, errors: tuple[float, ...]
-) -> list[ProfileError]:
+def completed(runs: list[Run], fine: np.ndarray, errors: tuple[float, ...]) -> list[ProfileError]:
     """Error and time of a table's profiles for each error asked for.
 
     Those that were not walked follow from those that were: squared errors are a + b error^2, one
@@ -394,7 +397,8 @@ def _points(
                     **made,
                 ),
                 shared_seconds=solved + (profiled.shared if profiled else 0.0),  # noqa: B023
-                serial_seconds=start + (profiled.serial if profiled else 0.0),
+                serial_seconds=profiled.serial if profiled else 0.0,
+                start_seconds=start,
                 delta_e_mean=seen.mean,  # noqa: B023
                 delta_e_largest=seen.largest,  # noqa: B023
                 band_rmse=seen.bands,  # noqa: B023
@@ -414,11 +418,23 @@ def _points(
     return points
 
 
-def _row(traded: str, setting: object, seconds: object, values: np.ndarray, unit: str, note="") -> Row:
-    """A row of parts, of the mean and the largest of some values."""
-    told = f"{seconds:.4g}" if isinstance(seconds, float) else ""
-    figures = f"{np.mean(values):.4g}", f"{np.max(values):.4g}"
-    return dict(zip(COLUMNS, (traded, setting, told, *figures, unit, note), strict=True))
+def _row(
+    traded: str,
+    setting: object,
+    seconds: float | None,
+    mean: float,
+    largest: float,
+    unit: str,
+    note: str = "",
+) -> Row:
+    told = "" if seconds is None else f"{seconds:.4g}"
+    numbers = told, f"{mean:.4g}", f"{largest:.4g}"
+    return dict(zip(COLUMNS, (traded, setting, *numbers, unit, note), strict=True))
+
+
+def _ends(values: np.ndarray) -> tuple[float, float]:
+    """Mean and largest."""
+    return float(np.mean(values)), float(np.max(values))
 
 
 def _colour_parts(
@@ -427,21 +443,12 @@ def _colour_parts(
     """Colours by knots and interpolation, and by wavelengths, all else as usual."""
     cost: Cost = found["cost", NODES]
     rows = []
-    for knots, kind in product(extent.knots, INTERPOLATIONS):
+    for kind, knots in product(INTERPOLATIONS, extent.knots):
         seen = colour[knots, kind, BASE_WAVELENGTHS, NODES]
+        seconds = cost.seconds(int(np.prod(knots)), BASE_WAVELENGTHS)
+        name, note = " ".join(map(str, knots)), f"bands {seen.bands:.2g} RMSE"
         rows.append(
-            {
-                **_row(
-                    f"knots, {kind}",
-                    " ".join(map(str, knots)),
-                    cost.seconds(int(np.prod(knots)), BASE_WAVELENGTHS),
-                    np.zeros(1),
-                    "CIEDE2000",
-                    f"bands {seen.bands:.2g} RMSE",
-                ),
-                "mean": f"{seen.mean:.4g}",
-                "largest": f"{seen.largest:.4g}",
-            }
+            _row(f"knots, {kind}", name, seconds, seen.mean, seen.largest, "CIEDE2000", note)
         )
     few, grid = _wavelengths(extent), _fine_wavelengths()
     fine = found["fine"]
@@ -449,9 +456,8 @@ def _colour_parts(
     for count in extent.wavelengths:
         rule = skin_quadrature(count)
         seen = found["nodes", NODES][:, np.isin(few, rule.wavelengths)] @ rule.weights.T
-        rows.append(
-            _row("wavelengths", count, cost.each * count, difference(seen, direct), "CIEDE2000")
-        )
+        apart = _ends(difference(seen, direct))
+        rows.append(_row("wavelengths", count, cost.each * count, *apart, "CIEDE2000"))
     return rows
 
 
@@ -460,66 +466,62 @@ def _solver_parts(extent: Extent, found: dict[Any, Any]) -> list[Row]:
     few, grid = _wavelengths(extent), _fine_wavelengths()
     rule = skin_quadrature(BASE_WAVELENGTHS)
     fine = found["fine"][:, np.isin(grid, rule.wavelengths)]
+    own = np.isin(few, rule.wavelengths)
+    ways = [
+        *(
+            ("nodes", each, found["cost", each].each, found["nodes", each][:, own])
+            for each in extent.nodes
+        ),
+        *(("rays", each, *found["walk", each]) for each in extent.rays),
+    ]
     rows = []
-    for traded, settings in (("nodes", extent.nodes), ("rays", extent.rays)):
-        for setting in settings:
-            if traded == "nodes":
-                seconds = found["cost", setting].each
-                seen = found["nodes", setting][:, np.isin(few, rule.wavelengths)]
-            else:
-                seconds, seen = found["walk", setting]
-            truth = fine[: len(seen)]
-            apart = difference(seen @ rule.weights.T, truth @ rule.weights.T)
-            rmse = np.sqrt(np.mean((seen - truth) ** 2, axis=1))
-            rows.append(_row(f"{traded}, spectrum", setting, seconds, rmse, "RMSE"))
-            rows.append(_row(f"{traded}, colour", setting, seconds, apart, "CIEDE2000"))
+    for traded, setting, seconds, seen in ways:
+        truth = fine[: len(seen)]
+        apart = _ends(difference(seen @ rule.weights.T, truth @ rule.weights.T))
+        rmse = _ends(np.sqrt(np.mean((seen - truth) ** 2, axis=1)))
+        rows.append(_row(f"{traded}, spectrum", setting, seconds, *rmse, "RMSE"))
+        rows.append(_row(f"{traded}, colour", setting, seconds, *apart, "CIEDE2000"))
     return rows
 
 
 def _profile_parts(profile: dict[Any, list[ProfileError]], misfits: np.ndarray) -> list[Row]:
-    rows = []
-    for (knots, count), each in profile.items():
-        for one in each:
-            rows.append(
-                {
-                    **_row(
-                        f"profile, {' '.join(map(str, knots))}, {count} wavelengths",
-                        one.error,
-                        one.shared + one.serial,
-                        np.zeros(1),
-                        "share of light",
-                        "" if one.walked else "extrapolated",
-                    ),
-                    "mean": f"{one.rms:.4g}",
-                    "largest": f"{one.largest:.4g}",
-                }
-            )
+    """Profiles by knots, wavelengths and error asked for, and what their shape misses."""
+    unit = "share of light"
+    rows = [
+        _row(
+            f"profile, {' '.join(map(str, knots))}, {count} wavelengths",
+            each.error,
+            each.shared + each.serial,
+            each.rms,
+            each.largest,
+            unit,
+            "" if each.walked else "extrapolated",
+        )
+        for (knots, count), errors in profile.items()
+        for each in errors
+    ]
     note = "Burley's profile against the walked one: no setting mends it"
-    return [*rows, _row("profile, shape", "", "", misfits, "share of light", note)]
+    return [*rows, _row("profile shape", "", None, *_ends(misfits), unit, note)]
 
 
 def _file_parts(apart: np.ndarray, sizes: dict[str, int]) -> list[Row]:
+    """Numbers of 32 and of 16 bits."""
+    errors = {"float": (0.0, 0.0), "half": _ends(apart)}
     return [
-        _row("number", name, "", apart if name == "half" else np.zeros(1), "CIEDE2000", f"{size} bytes")
+        _row("number", name, None, *errors[name], "CIEDE2000", f"{size} bytes")
         for name, size in sizes.items()
     ]
 
 
 def _component_parts(spectra: np.ndarray) -> list[Row]:
     """Principal components of half of the spectra keep the other half (appendix D)."""
-    ways = {"PCA": [np.full(BROAD.size, True)], "PPCA": regions(BROAD)}
-    return [
-        _row(
-            f"components, {name}",
-            count,
-            "",
-            component_errors(spectra[::2], spectra[1::2], parts, count),
-            "RMSE",
-            f"{count * len(parts)} numbers a state",
-        )
-        for name, parts in ways.items()
-        for count in COMPONENTS
-    ]
+    rows = []
+    for name, parts in (("PCA", [np.full(BROAD.size, True)]), ("PPCA", regions(BROAD))):
+        for count in COMPONENTS:
+            errors = _ends(component_errors(spectra[::2], spectra[1::2], parts, count))
+            note = f"{count * len(parts)} numbers a state"
+            rows.append(_row(f"components, {name}", count, None, *errors, "RMSE", note))
+    return rows
 
 
 def _rms(values: np.ndarray) -> float:

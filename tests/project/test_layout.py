@@ -20,6 +20,7 @@ ALLOWED = {
     "hylios/transport": {"numpy", "numba"},
     "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
+    "lut_builder/trade_figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }

@@ -28,9 +28,15 @@ from one side only. Elsewhere it does less, in even light nothing."""
 LEAST_GAIN = 0.02
 """Share by which a point of the front has less error than the one before it."""
 
-PRESET_SECONDS = {"preview": 0.6, "standard": 20.0, "reference": 400.0}
-"""On two cores, besides the start, in which a preset is the best point: a third or less of what
-they may take, 3, 60 and 1200 s with the start, for slower machines and skins."""
+PRESET_LIMITS = {
+    "preview": (0.6, 0.5, 1.5),
+    "standard": (20.0, 0.1, 0.3),
+    "reference": (400.0, 0.1, 0.3),
+}
+"""Of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
+
+The seconds are a third or less of what presets may take, 3, 60 and 1200 s with the start: other
+machines and skins are slower."""
 
 
 @dataclass(frozen=True)
@@ -71,8 +77,11 @@ class Point:
 
     @property
     def error(self) -> float:
-        """Largest difference in CIEDE2000, of the colour or of what the profile can do to it."""
-        return max(self.delta_e_largest, DELTA_E_PER_SHARE * self.profile_largest)
+        """Largest difference in CIEDE2000, of the colour and what the profile can do to it.
+
+        Their errors are independent: the root of the sum of squares.
+        """
+        return float(np.hypot(self.delta_e_largest, DELTA_E_PER_SHARE * self.profile_largest))
 
 
 def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GAIN) -> np.ndarray:
@@ -142,12 +151,15 @@ def best(points: Sequence[Point], max_seconds: float, *, cores: int, profile: bo
 
 
 def presets(points: Sequence[Point]) -> dict[str, Point]:
-    """The points that the presets are to be: the best in `PRESET_SECONDS`."""
+    """The points that the presets are to be: the best within `PRESET_LIMITS`."""
     start = max(each.start_seconds for each in points)
-    return {
-        name: best(points, start + seconds, cores=CORES, profile=True)
-        for name, seconds in PRESET_SECONDS.items()
-    }
+    chosen = {}
+    for name, (seconds, mean, largest) in PRESET_LIMITS.items():
+        good = [
+            each for each in points if each.delta_e_mean <= mean and each.delta_e_largest <= largest
+        ]
+        chosen[name] = best(good, start + seconds, cores=CORES, profile=True)
+    return chosen
 
 
 def named(point: Point) -> str:

@@ -193,7 +193,7 @@ def profile_runs(
     """Tables with profiles of ever smaller error, until one would take longer than `longest`."""
     runs: list[Run] = []
     for error in errors:
-        if len(runs) > 1 and _expected(runs[-1], error) > longest:
+        if len(runs) > 1 and _expected(runs, error) > longest:
             break
         request = requested(made_for, replace(settings, profile_error=error), seed=seed)
         shared, results = 0.0, {}
@@ -205,9 +205,15 @@ def profile_runs(
     return runs
 
 
-def _expected(run: Run, error: float) -> float:
-    """Seconds at most of the same profiles with another error: paths go with its inverse square."""
-    return run.serial + run.shared * (run.error / error) ** 2
+def _expected(runs: list[Run], error: float) -> float:
+    """Seconds of the same profiles with another error, by what the last run had more than before.
+
+    Seconds grow with the number of paths, which goes with the inverse square of the error.
+    """
+    before, last = runs[-2:]
+    grown = max(last.shared - before.shared, 0.0)
+    share = (error**-2 - last.error**-2) / (last.error**-2 - before.error**-2)
+    return last.serial + last.shared + grown * share
 
 
 def half_against_full(

@@ -11,7 +11,7 @@ ones (`completed`).
 """
 
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
 from itertools import product
@@ -96,17 +96,16 @@ class Extent:
         (9, 3, 3, 2),
         (11, 3, 3, 2),
         (13, 4, 4, 2),
-        (17, 5, 5, 3),
     )
     wavelengths: tuple[int, ...] = (4, 6, 8, 12, 16)
     nodes: tuple[int, ...] = (10, 14, 18, NODES, 30)
-    profile_errors: tuple[float, ...] = (0.05, 0.03, 0.02, 0.01, 0.006, 0.004, 0.003, 0.002)
+    profile_errors: tuple[float, ...] = (0.05, 0.02, 0.01, 0.006, 0.004, 0.003, 0.002)
     profile_wavelengths: tuple[int, ...] = (4, 8)
     rays: tuple[int, ...] = (1_000, 10_000, 100_000)
     fine_nodes: int = 36
     fine_profile_wavelengths: int = 12
     fine_profile_error: float = 0.001
-    longest: float = 6.0
+    longest: float = 5.0
     file_knots: tuple[int, ...] = (11, 3, 3, 2)
     repeats: int = 3
 
@@ -208,10 +207,12 @@ def measure(
             progress(size)
     colour = _colour_errors(made_for, extent, states, found)
     fine, misfits = found["profile fine"]
-    profile = {
-        each: completed(found["profile", *each], fine, extent.profile_errors)
-        for each in product(extent.knots, extent.profile_wavelengths)
-    }
+    profile = {}
+    for count in extent.profile_wavelengths:
+        runs = {knots: found["profile", knots, count] for knots in extent.knots}
+        noise = noise_share(list(runs.values()), fine)
+        for knots, each in runs.items():
+            profile[knots, count] = completed(each, fine, extent.profile_errors, noise)
     return Trade(
         points=_points(extent, found, colour, profile),
         parts=[
@@ -333,18 +334,34 @@ def _colour_errors(
     return errors
 
 
-def completed(runs: list[Run], fine: np.ndarray, errors: tuple[float, ...]) -> list[ProfileError]:
+def noise_share(runs: Sequence[Sequence[Run]], fine: np.ndarray) -> float:
+    """Mean squared error of tables' profiles over that of a wavelength's, of noise alone.
+
+    The median over tables, of what each one's squared error falls by with the error asked for.
+    """
+    falls = []
+    for some in runs:
+        squares = [_rms(share_errors(run.widths, fine)) ** 2 for run in some]
+        asked = [run.error**2 for run in some]
+        falls.append((squares[0] - squares[-1]) / (asked[0] - asked[-1]))
+    return max(float(np.median(falls)), 0.0)
+
+
+def completed(
+    runs: Sequence[Run], fine: np.ndarray, errors: Sequence[float], noise: float
+) -> list[ProfileError]:
     """Error and time of a table's profiles for each error asked for.
 
-    Those that were not walked follow from those that were: squared errors are a + b error^2, one
-    part from knots and wavelengths and one from noise, fitted with neither negative; seconds are
-    those of the most accurate, times the number of paths, and so too many rather than too few.
+    Those that were not walked follow from the most accurate run: its mean squared error falls by
+    what `noise_share` says, though no further than to that of noise alone, and its largest error
+    by as much; seconds are its own, times the number of paths. All are too large rather than too
+    small.
 
     Parameters
     ----------
     fine : (N, 3) array
         Widths, in mm.
-    errors : tuple of float
+    errors : sequence of float
         Descending; those of the runs come first.
     """
     shares = [share_errors(run.widths, fine) for run in runs]
@@ -353,27 +370,20 @@ def completed(runs: list[Run], fine: np.ndarray, errors: tuple[float, ...]) -> l
         for run, each in zip(runs, shares, strict=True)
     ]
     last = known[-1]
-    asked = np.array([each.error for each in known])
     for error in errors[len(known) :]:
-        rms, largest = (
-            _extrapolated(asked, np.array([getattr(each, name) for each in known]), error)
-            for name in ("rms", "largest")
+        fallen = last.rms**2 - noise * (last.error**2 - error**2)
+        rms = max(np.sqrt(max(fallen, 0.0)), last.rms * error / last.error)
+        known.append(
+            ProfileError(
+                error,
+                last.shared * (last.error / error) ** 2,
+                last.serial,
+                float(rms),
+                float(last.largest * rms / last.rms),
+                walked=False,
+            )
         )
-        shared = last.shared * (last.error / error) ** 2
-        known.append(ProfileError(error, shared, last.serial, rms, largest, walked=False))
     return known
-
-
-def _extrapolated(asked: np.ndarray, got: np.ndarray, error: float) -> float:
-    """sqrt(a + b error^2) through what errors asked for gave, relative misfits alike."""
-    squares = got**2
-    both = np.stack([1.0 / squares, asked**2 / squares], axis=1)
-    a, b = np.linalg.lstsq(both, np.ones(asked.size), rcond=None)[0]
-    if a < 0.0 or b < 0.0:
-        which = both[:, 0] if b < 0.0 else both[:, 1]
-        only = which.sum() / (which @ which)
-        a, b = (only, 0.0) if b < 0.0 else (0.0, only)
-    return float(np.sqrt(a + b * error**2))
 
 
 def _points(

@@ -66,7 +66,7 @@ def _draw_front(place: Axes, trade: Trade) -> None:
         xscale="log",
         yscale="log",
         xlabel=f"seconds on {CORES} cores, the start included",
-        ylabel="largest CIEDE2000, or 25 x share of the profile",
+        ylabel="largest CIEDE2000, colour and profile together",
         title="Tables: time against error",
     )
 
@@ -110,6 +110,7 @@ def _draw_knots(place: Axes, parts: list[Row]) -> None:
         ylabel="CIEDE2000 between the knots",
         title="Knots and interpolation (8 wavelengths)",
     )
+    place.tick_params(axis="x", which="minor", labelbottom=False)
 
 
 def _draw_solvers(place: Axes, parts: list[Row]) -> None:
@@ -138,19 +139,24 @@ def _draw_solvers(place: Axes, parts: list[Row]) -> None:
 
 
 def _draw_profiles(place: Axes, parts: list[Row]) -> None:
-    shown = list(_groups(parts, "profile, "))
-    for number, (name, rows) in enumerate(shown):
-        colour = f"C{number // 2}"
+    tables: list[str] = []
+    for name, rows in _groups(parts, "profile, "):
+        knots, _, wavelengths = name.partition(", ")
+        first = knots not in tables
+        if first:
+            tables.append(knots)
+        number = tables.index(knots)
+        look = {"color": f"C{number % 10}", "lw": 0.9}
+        style = ":" if wavelengths == "4 wavelengths" else "-"
         walked = [row for row in rows if not row["note"]]
-        style = "-" if "8 wave" in name else ":"
-        place.plot(_numbers(rows, "seconds"), _numbers(rows, "mean"), style, lw=0.9, color=colour)
+        place.plot(_numbers(rows, "seconds"), _numbers(rows, "mean"), style, **look)
         place.plot(
             _numbers(walked, "seconds"),
             _numbers(walked, "mean"),
-            MARKS[number // 2 % len(MARKS)],
+            MARKS[number % len(MARKS)],
             ms=3.5,
-            color=colour,
-            label=name if style == "-" or len(shown) < 3 else None,
+            color=look["color"],
+            label=f"knots {knots}" if first else None,
         )
     place.set(
         xscale="log",

@@ -13,12 +13,10 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
-from hylios.phototypes import phototype
+from examples import bench_tables
 from hylios.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
-from lut_builder.build import build
-from lut_builder.settings import PRESETS
 
 REPEATS = 5
 RAYS = {False: 20_000, True: 1000}
@@ -108,13 +106,7 @@ def main() -> None:
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
     report_tanning()
-    for preset, type_of_skin in TABLES:
-        settings, made_for = PRESETS[preset], phototype(type_of_skin).skin
-        report(
-            f"table, {preset}, {settings.states} states, type {type_of_skin}, all cores",
-            timed(lambda made_for=made_for, settings=settings: build(made_for, settings), 1),
-            "s",
-        )
+    bench_tables.main([])
 
 
 if __name__ == "__main__":

@@ -59,8 +59,9 @@ def requested(
     if reached is not None:
         needed = needed_knots(axes, reached, settings.interpolation)
     # Plain dictionaries, for requests to travel to other processes.
-    figures_too, readings_too = (None if each is None else dict(each) for each in (known, chosen))
-    return Request(made_for, settings, axes, needed, seed, figures_too, readings_too)
+    own_figures = None if known is None else dict(known)
+    own_readings = None if chosen is None else dict(chosen)
+    return Request(made_for, settings, axes, needed, seed, own_figures, own_readings)
 
 
 def build(

@@ -3,15 +3,16 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hylios.errors import require_whole
+from hylios.errors import InputError, require_whole
+from hylios.files import require_target
 from hylios.quadrature import FEWEST, MOST
 from hylios.shell import (
     add_skin_arguments,
@@ -25,6 +26,17 @@ from hylios.shell import (
 )
 from hylios.skin import UNTANNED
 from hylios.table import INTERPOLATIONS, read_table
+from lut_builder.front import (
+    Point,
+    best,
+    cheapest,
+    described,
+    read_points,
+    shipped_points,
+    usable_cores,
+    write_points,
+    write_rows,
+)
 from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 
 if TYPE_CHECKING:
@@ -66,6 +78,7 @@ def _parser() -> argparse.ArgumentParser:
         "the specimen's own distribution",
     )
     building.add_argument("--preset", choices=list(PRESETS), default="standard")
+    _add_choice_arguments(building)
     building.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
     building.add_argument("--wavelengths", type=int, help="from which colours are made, 4 to 16")
     building.add_argument(
@@ -118,7 +131,41 @@ def _parser() -> argparse.ArgumentParser:
         help="per wavelength of a random walk (default: the solver, without noise)",
     )
     add_work_arguments(checking)
+
+    trading = commands.add_parser("trade", help="measure time against error, here and for a skin")
+    trading.set_defaults(command=_trade)
+    add_skin_arguments(trading)
+    add_work_arguments(trading)
+    add_tanning_arguments(trading)
+    _add_choice_arguments(trading)
+    trading.add_argument("--quick", action="store_true", help="seconds, to see that it works")
+    trading.add_argument("--force", action="store_true", help="replace existing files")
+    trading.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.png",
+        help="measure anew (minutes): the picture, with the front and its parts as CSV beside it; "
+        "without it the front measured before is shown",
+    )
     return parser
+
+
+def _add_choice_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `_chosen_point` reads."""
+    limit = parser.add_mutually_exclusive_group()
+    limit.add_argument(
+        "--max-delta-e", type=float, help="the fastest table measured with no larger CIEDE2000"
+    )
+    limit.add_argument(
+        "--max-seconds", type=float, help="the best table measured to take no more seconds"
+    )
+    parser.add_argument(
+        "--front",
+        type=Path,
+        metavar="FILE.csv",
+        help="to choose from, as `lut-builder trade` writes it (default: the one that is shipped)",
+    )
 
 
 @contextmanager
@@ -129,8 +176,32 @@ def _progress(total: float, what: str) -> Iterator[Callable[[float], object]]:
         yield lambda size: bar.update(min(size, total - bar.n))  # no rounding beyond the end
 
 
+def _chosen_point(asked: argparse.Namespace, points: Sequence[Point], profile: bool) -> Point:
+    """The point of a front that `--max-delta-e` or `--max-seconds` asks for."""
+    cores = usable_cores(asked.threads)
+    if asked.max_delta_e is not None:
+        return cheapest(points, asked.max_delta_e, cores=cores, profile=profile)
+    return best(points, asked.max_seconds, cores=cores, profile=profile)
+
+
+def _known_points(asked: argparse.Namespace) -> list[Point]:
+    return shipped_points() if asked.front is None else read_points(asked.front)
+
+
+def _start(asked: argparse.Namespace) -> Settings:
+    """The settings that other arguments change: a preset's, or those of a point of the front."""
+    if asked.max_delta_e is None and asked.max_seconds is None:
+        return PRESETS[asked.preset]
+    with_colours = asked.bands is None or VISIBLE in asked.bands
+    profile = with_colours and not asked.no_profile
+    point = _chosen_point(asked, _known_points(asked), profile)
+    cores = usable_cores(asked.threads)
+    print(f"chosen: {described(point, cores)}, as measured for the front's machine and skin")
+    return point.settings
+
+
 def _settings(asked: argparse.Namespace) -> Settings:
-    settings = PRESETS[asked.preset]
+    settings = _start(asked)
     if asked.knots is not None:
         counts = [number(part, "number of knots") for part in asked.knots.split(",")]
         knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
@@ -196,6 +267,50 @@ def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
 
         return on_cluster(asked.dask)
     return in_processes(1 if seconds < SHORT else asked.threads or os.cpu_count() or 1)
+
+
+def _trade(asked: argparse.Namespace) -> None:
+    require_work(asked)
+    if asked.output is None:
+        _show(asked, _known_points(asked))
+        return
+    if asked.front is not None:
+        raise InputError(f"both {asked.front} and {asked.output} are given; allowed is one.")
+    written = [
+        asked.output,
+        asked.output.with_suffix(".csv"),
+        asked.output.with_name(f"{asked.output.stem}_parts.csv"),
+    ]
+    for path, kind in zip(written, (".png", ".csv", ".csv"), strict=True):
+        require_target(path, (kind,), asked.force)
+    made_for = chosen_tanning_skin(asked)
+
+    from lut_builder.trade import FULL, QUICK, measure, notes
+    from lut_builder.trade_figure import draw
+
+    extent = QUICK if asked.quick else FULL
+    with ExitStack() as stack:
+
+        def begin(total: float) -> Callable[[float], object]:
+            return stack.enter_context(_progress(total, "time against error"))
+
+        found = measure(made_for, extent, seed=asked.seed, begin=begin)
+    told = notes(made_for, extent)
+    picture, front_file, parts_file = written
+    write_points(front_file, found.front, told)
+    write_rows(parts_file, found.parts, told)
+    draw(found, picture, "; ".join(told[:3]))
+    print(f"wrote {', '.join(map(str, written))}")
+    _show(asked, found.front)
+
+
+def _show(asked: argparse.Namespace, points: Sequence[Point]) -> None:
+    """Print the front, or the point of it that is asked for."""
+    if asked.max_delta_e is None and asked.max_seconds is None:
+        print("\n".join(described(each) for each in points))
+    else:
+        point = _chosen_point(asked, points, profile=True)
+        print(f"chosen: {described(point, usable_cores(asked.threads))}")
 
 
 def _info(asked: argparse.Namespace) -> None:

@@ -100,10 +100,11 @@ class Settings:
 
 
 PRESETS = {
-    "preview": Settings(knots=(5,), profile_error=0.05, profile_wavelengths=4),
-    "standard": Settings(knots=(11, 3, 3, 2), profile_error=0.01),
-    "reference": Settings(
-        knots=(17, 5, 5, 3), colour_wavelengths=16, profile_error=0.002, nodes=40
+    "preview": Settings(
+        knots=(7, 2), colour_wavelengths=4, profile_error=0.02, profile_wavelengths=4, nodes=18
     ),
+    "standard": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.003),
+    "reference": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.002),
 }
-"""Points on the front of time against error that `lut-builder trade` measures."""
+"""Points of the front of time against error that `lut-builder trade` measures, chosen by
+`lut_builder.front.presets`."""

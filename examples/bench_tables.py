@@ -1,0 +1,222 @@
+"""What tables cost and are worth on this machine: the rows of `make bench` about tables.
+
+python -m examples.bench_tables [--reference]
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hylios.adding.spectrum import spectrum as solved
+from hylios.colour import rec709_weights
+from hylios.phototypes import phototype
+from hylios.skin import Skin
+from hylios.table import SkinTable, read_table
+from hylios.transport.simulate import spectrum as walked
+from lut_builder.build import build
+from lut_builder.check import FINE, check
+from lut_builder.pieces import ANGLE
+from lut_builder.settings import Settings
+
+CORES = 2
+REPEATS = 3
+SKIN = "III"
+FINE_NODES = 40
+
+SPECTRA = Settings((8, 4, 2), colour_wavelengths=0, bands=tuple(FINE), profile_error=0.0)
+"""64 states at 61 wavelengths."""
+
+WALKED_STATES, WALKED_STEP, WALKED_RAYS = 4, 4, 200_000
+PRINTED_RAYS = 500
+ERROR = 1e-3
+"""RMSE at which solver and random walk are compared."""
+
+PEER = Settings((14, 8, 7, 6), bands=(), profile_error=0.0)
+"""As many cells as the nearest public peer's table has, 4704: here states with three channels."""
+
+PEER_CHECKED = 200
+
+PRESET_LIMITS = {"preview": (3.0, 0.5, 1.5), "standard": (60.0, 0.1, 0.3), "reference": (1200.0,)}
+"""Seconds, and mean and largest CIEDE2000, at most."""
+
+STANDARD_KILOBYTES = 300.0
+
+
+@dataclass(frozen=True)
+class Spent:
+    """Seconds of runs by the clock, and of the processor."""
+
+    clock: list[float]
+    processor: list[float]
+
+
+def spent(work, repeats: int) -> tuple[Spent, object]:
+    """Time of each of some runs, and the last one's result."""
+    clock, processor, result = [], [], None
+    for _ in range(repeats):
+        starts = time.perf_counter(), time.process_time()
+        result = work()
+        clock.append(time.perf_counter() - starts[0])
+        processor.append(time.process_time() - starts[1])
+    return Spent(clock, processor), result
+
+
+def ranged(figures: list[float]) -> str:
+    """Median, and least and most where there are several."""
+    text = f"{np.median(figures):.3g}"
+    return f"{text} ({min(figures):.3g} to {max(figures):.3g})" if len(figures) > 1 else text
+
+
+def said(what: str, found: str, limit: str, kept: bool) -> None:
+    """One line."""
+    print(f"{what:<58} {found}; must be {limit}: {'yes' if kept else 'NO'}", flush=True)
+
+
+def report_spectra(made_for: Skin) -> None:
+    """64 states x 61 wavelengths: time, error against a random walk, and the latter's time."""
+    taken, table = spent(lambda: build(made_for, SPECTRA, threads=CORES), REPEATS)
+    said(
+        "64 states x 61 wavelengths, solver, 2 cores",
+        f"{ranged(taken.clock)} s",
+        "30 s or less",
+        np.median(taken.clock) <= 30.0,
+    )
+    error, uncertain = solver_error(made_for, table)
+    said(
+        "  RMSE against the random walk, its noise taken off",
+        f"{error:.2g} (at most {uncertain:.2g} with 95 %)",
+        f"{ERROR:g} at most",
+        error <= ERROR,
+    )
+    reflectance = table.planes["band_reflectance"]
+    rays = float(np.mean(reflectance * (1.0 - reflectance))) / ERROR**2
+    each = [printed_seconds(made_for, table, number) for number in range(REPEATS)]
+    seconds = [one * rays * reflectance.size for one in each]
+    ratio = np.median(seconds) / np.median(taken.processor)
+    print(
+        f"  as printed, the walk needs {rays:.3g} rays each for that RMSE: {ranged(seconds)} s of "
+        f"one core (extrapolated from {PRINTED_RAYS} rays)"
+    )
+    said("  ratio of core-seconds", f"{ratio:.3g}", "400 or more", ratio >= 400.0)
+
+
+def solver_error(made_for: Skin, table: SkinTable) -> tuple[float, float]:
+    """RMSE of a table's bands against random walks at some knots, and its upper bound (95 %).
+
+    The walk's variance is taken off the mean square.
+    """
+    states = table.axes.knot_states().reshape(-1, 4)
+    known = table.planes["band_reflectance"].reshape(len(states), -1)[:, ::WALKED_STEP]
+    excess = []
+    for place in np.linspace(0, len(states) - 1, WALKED_STATES).astype(int):
+        specimen = made_for.tanned(states[place, :3], states[place, 3])
+        found = walked(specimen, FINE[::WALKED_STEP], angle=ANGLE, rays=WALKED_RAYS, threads=CORES)
+        excess.append((known[place] - found.total) ** 2 - found.standard_error**2)
+    squares = np.concatenate(excess)
+    mean, error = squares.mean(), squares.std(ddof=1) / np.sqrt(squares.size)
+    return float(np.sqrt(max(mean, 0.0))), float(np.sqrt(max(mean + 1.645 * error, 0.0)))
+
+
+def printed_seconds(made_for: Skin, table: SkinTable, number: int) -> float:
+    """Seconds of one core for a ray as the thesis prints it, at a knot."""
+    states = table.axes.knot_states().reshape(-1, 4)
+    state = states[(number * len(states)) // REPEATS]
+    specimen = made_for.tanned(state[:3], state[3])
+
+    def light() -> None:
+        walked(specimen, FINE, angle=ANGLE, rays=PRINTED_RAYS, threads=1, as_printed=True)
+
+    light()
+    taken, _ = spent(light, 1)
+    return taken.processor[0] / (PRINTED_RAYS * FINE.size)
+
+
+def report_peer(made_for: Skin) -> None:
+    """A table of the peer's size: 4704 states' colours, albedo against a converged solution."""
+    taken, table = spent(lambda: build(made_for, PEER, threads=CORES), 1)
+    said(
+        "4704 states' colours, 2 cores",
+        f"{ranged(taken.clock)} s",
+        "300 s or less",
+        taken.clock[0] <= 300.0,
+    )
+    errors = 100.0 * albedo_errors(made_for, table)
+    median, most = np.median(errors), np.percentile(errors, 95.0)
+    said(
+        f"  albedo, {PEER_CHECKED} of them, relative error",
+        f"median {median:.2g} %, 95th percentile {most:.2g} %",
+        ".1 % and .5 % at most",
+        bool(median <= 0.1 and most <= 0.5),
+    )
+
+
+def albedo_errors(made_for: Skin, table: SkinTable) -> np.ndarray:
+    """Relative error (N, 3) of channels of the albedo at some knots."""
+    states = table.axes.knot_states().reshape(-1, 4)
+    albedo = table.planes["subsurface_colour"].reshape(-1, 3)
+    weights = rec709_weights(FINE)
+    errors = []
+    for place in np.random.default_rng(1).choice(len(states), PEER_CHECKED, replace=False):
+        specimen = made_for.tanned(states[place, :3], states[place, 3])
+        direct = weights @ solved(specimen, FINE, angle=ANGLE, nodes=FINE_NODES).subsurface
+        errors.append(np.abs(albedo[place] / direct - 1.0))
+    return np.array(errors)
+
+
+def report_presets(names: tuple[str, ...]) -> None:
+    """Presets as the shell builds them, against direct solutions at 200 states."""
+    for name in names:
+        seconds, *limits = PRESET_LIMITS[name]
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / f"{name}.exr"
+            asked = ["build", "--skin", SKIN, "--preset", name, "--threads", str(CORES)]
+            command = [sys.executable, "-m", "lut_builder.cli", *asked, "--force", "-o", str(path)]
+
+            def made(command=command) -> None:
+                subprocess.run(command, check=True, capture_output=True)
+
+            taken, _ = spent(made, REPEATS if name == "preview" else 1)
+            kilobytes = path.stat().st_size / 1000.0
+            table = read_table(path)
+        said(
+            f"table, preset {name}, skin {SKIN}, program and all",
+            f"{ranged(taken.clock)} s",
+            f"{seconds:g} s or less",
+            np.median(taken.clock) <= seconds,
+        )
+        apart = check(table, count=200, seed=1).differences
+        figures = f"mean {apart.mean():.3f}, largest {apart.max():.3f}"
+        if limits:
+            said(
+                "  CIEDE2000 at 200 reachable states that are no knots",
+                figures,
+                f"{limits[0]:g} and {limits[1]:g} at most",
+                bool(apart.mean() <= limits[0] and apart.max() <= limits[1]),
+            )
+        else:
+            print(f"  CIEDE2000 at 200 reachable states that are no knots: {figures}")
+        if name == "standard":
+            limit = STANDARD_KILOBYTES
+            said("  file", f"{kilobytes:.0f} KB", f"under {limit:g} KB", kilobytes < limit)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--reference", action="store_true", help="that preset too: minutes")
+    asked = parser.parse_args(arguments)
+    made_for = phototype(SKIN).skin
+    print(f"tables of skin {SKIN}; median (least to most) of {REPEATS} runs, or one")
+    report_spectra(made_for)
+    report_peer(made_for)
+    report_presets(("preview", "standard", "reference")[: 3 if asked.reference else 2])
+
+
+if __name__ == "__main__":
+    main()

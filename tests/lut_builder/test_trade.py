@@ -1,0 +1,296 @@
+"""Time against error: the front, choosing a point of it, and what is measured."""
+
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from hylios.colour import difference, rec709_weights
+from hylios.errors import InputError
+from hylios.skin import skin
+from hylios.specimen import SPECIMENS
+from hylios.table import read_table
+from lut_builder.build import build
+from lut_builder.check import FINE, settings_of
+from lut_builder.cli import main
+from lut_builder.front import (
+    DELTA_E_PER_SHARE,
+    Point,
+    best,
+    cheapest,
+    front,
+    nondominated,
+    presets,
+    read_points,
+    shipped_points,
+    write_points,
+)
+from lut_builder.measuring import (
+    Run,
+    between_knots,
+    component_errors,
+    profile_runs,
+    reflectances,
+    regions,
+    share_errors,
+)
+from lut_builder.settings import PRESETS, Settings
+from lut_builder.trade import BROAD, QUICK, completed, measure, noise_share
+
+S3 = skin(SPECIMENS["S3"])
+
+
+def point(seconds, error, **made):
+    return Point(Settings((3,), **made), 0.0, seconds, 0.5, error / 2.0, error, 0.0)
+
+
+@pytest.fixture(scope="module")
+def quick():
+    return measure(S3, QUICK)
+
+
+def test_the_front_is_what_nothing_beats():
+    random = np.random.default_rng(1)
+    seconds, errors = random.uniform(0.0, 1.0, (2, 500))
+    kept = set(nondominated(seconds, errors, 0.0))
+    for one in range(500):
+        beaten = np.any((seconds < seconds[one]) & (errors <= errors[one]))
+        assert (one in kept) != beaten
+
+
+def test_each_point_of_the_front_gains_enough():
+    seconds, errors = np.array([3.0, 1.0, 2.0, 4.0, 2.0]), np.array([0.5, 1.0, 0.99, 0.485, 2.0])
+    assert nondominated(seconds, errors, 0.02).tolist() == [1, 0, 3]
+    assert nondominated(seconds, errors, 0.05).tolist() == [1, 0]
+
+
+def test_tables_with_and_without_a_profile_have_fronts_of_their_own():
+    slow = point(9.0, 0.5, profile_error=0.01)
+    quick = point(1.0, 0.5, profile_error=0.0)
+    assert front([quick, slow]) == [slow, quick]
+
+
+def test_the_profile_counts_as_colour_does():
+    one = replace(point(1.0, 0.3), profile_largest=0.4 / DELTA_E_PER_SHARE)
+    assert one.error == pytest.approx(0.5)
+    assert replace(one, profile_largest=0.0).error == 0.3
+
+
+def test_choosing_by_error_and_by_time():
+    points = [point(1.0, 1.0), point(10.0, 0.2), point(100.0, 0.1)]
+    choose = {"cores": 2, "profile": True}
+    assert cheapest(points, 0.2, **choose) is points[1]
+    assert cheapest(points, 5.0, **choose) is points[0]
+    assert best(points, 99.0, **choose) is points[1]
+    assert best(points, 1e6, **choose) is points[2]
+    with pytest.raises(InputError, match=r"0.05 CIEDE2000; the best table measured has 0.1"):
+        cheapest(points, 0.05, **choose)
+    with pytest.raises(InputError, match=r"time is 0.1 s; the fastest table measured takes 1.5 s"):
+        best(points, 0.1, **choose)
+    with pytest.raises(InputError, match="without a profile"):
+        best(points, 10.0, cores=2, profile=False)
+
+
+def test_more_cores_share_what_can_be_shared():
+    one = replace(point(3.0, 1.0), shared_seconds=12.0)
+    assert [one.seconds(cores) for cores in (1, 2, 4)] == [15.5, 9.5, 6.5]
+
+
+def test_points_are_read_as_they_were_written(tmp_path):
+    path = tmp_path / "front.csv"
+    made = Settings((4, 3), 6, profile_error=0.02, profile_wavelengths=4, nodes=14)
+    points = [
+        Point(made, 1.25, 0.5, 2.0, 0.125, 0.25, 0.001, 0.01, 0.03),
+        Point(replace(made, interpolation="linear", profile_error=0.0), 1.0, 0.0, 1.0, 0.2, 0.3, 0),
+    ]
+    write_points(path, points, ["a note", "another, with a comma"])
+    assert read_points(path) == points
+    assert path.read_text().startswith("# a note\n# another, with a comma\nknots,")
+
+
+@pytest.mark.parametrize("spoilt", ["", "knots,nodes\n3,22\n", "\0", "x" * 1000])
+def test_another_file_is_refused_as_a_front(tmp_path, spoilt, capsys):
+    path = tmp_path / "front.csv"
+    path.write_text(spoilt)
+    out = str(tmp_path / "t.exr")
+    assert main(["build", "--max-seconds", "9", "--front", str(path), "-o", out]) == 2
+    assert "front" in capsys.readouterr().err
+
+
+def test_presets_are_points_of_the_shipped_front():
+    """Those that the front chooses, no others; it holds no table that another beats."""
+    points = shipped_points()
+    assert front(points) == points
+    chosen = presets(points)
+    assert {name: each.settings for name, each in chosen.items()} == PRESETS
+    errors = [each.error for each in chosen.values()]
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_errors_of_shares_of_light():
+    """Zero for the same widths; for nearly the same by the profile's slope, x times its density."""
+    x = np.linspace(0.0, 20.0, 200_001)
+    slope = np.max(0.25 * x * (np.exp(-x) + np.exp(-x / 3.0)))
+    fine = np.array([[0.5, 1.0, 3.0]])
+    assert share_errors(fine, fine).max() == 0.0
+    assert share_errors(1.002 * fine, fine) == pytest.approx(0.002 * slope, rel=0.01)
+    assert share_errors(fine / 1.002, fine) == pytest.approx(0.002 * slope, rel=0.01)
+
+
+def test_profiles_that_were_not_walked_follow_from_those_that_were():
+    """Noise halves with the error asked for; what does not, stays."""
+    fine = np.full((50, 3), 1.0)
+    noise = np.random.default_rng(1).normal(0.0, 1.0, fine.shape)
+    errors = (0.02, 0.01, 0.005, 0.0025)
+
+    def runs(offset):
+        return [Run(e, 3.0, 1.0, fine * (1.0 + offset + e * noise)) for e in errors[:2]]
+
+    share = noise_share([runs(0.0), runs(0.1), runs(0.0)], fine)
+    noisy = completed(runs(0.0), fine, errors, share)
+    assert [each.walked for each in noisy] == [True, True, False, False]
+    assert noisy[3].rms == pytest.approx(noisy[1].rms / 4.0, rel=0.02)
+    assert noisy[3].largest == pytest.approx(noisy[1].largest / 4.0, rel=0.02)
+    assert noisy[2].shared == 12.0 and noisy[3].shared == 48.0 and noisy[3].serial == 1.0
+    off = completed(runs(0.1), fine, (*errors, 5e-4), share)
+    assert off[-1].rms == pytest.approx(share_errors(1.1 * fine, fine).max(), rel=0.05)
+
+
+def test_noise_cannot_fall_by_more_than_there_is():
+    """However much noise others have, a good run's error only scales."""
+    fine = np.full((9, 3), 1.0)
+    (_, last) = completed([Run(0.02, 3.0, 1.0, 1.01 * fine)], fine, (0.02, 0.01), 100.0)
+    assert last.rms == pytest.approx(share_errors(1.01 * fine, fine).max() / 2.0)
+
+
+def test_components_keep_what_they_span():
+    """As many components as there are shapes keep all; regions need their own."""
+    random = np.random.default_rng(1)
+    shapes = random.uniform(0.0, 1.0, (3, BROAD.size))
+    spectra = random.uniform(0.0, 1.0, (40, 3)) @ shapes
+    whole = [np.full(BROAD.size, True)]
+    for parts in (whole, regions(BROAD)):
+        assert component_errors(spectra[:20], spectra[20:], parts, 3).max() < 1e-12
+    two = component_errors(spectra[:20], spectra[20:], whole, 2)
+    kept = np.linalg.svd(spectra[:20], full_matrices=False)[2][2]
+    assert two == pytest.approx(np.abs(spectra[20:] @ kept) / np.sqrt(BROAD.size))
+    assert component_errors(spectra[:20], spectra[20:], regions(BROAD), 2).max() < two.max()
+
+
+def test_regions_share_all_wavelengths():
+    parts = regions(BROAD)
+    assert np.sum(parts, axis=0).tolist() == [1] * BROAD.size
+    assert [BROAD[part][-1] for part in parts] == [700.0, 1400.0, 2500.0]
+
+
+def test_a_limit_chooses_the_table_that_is_built(tmp_path, capsys):
+    """And other arguments still change it."""
+    path, out = tmp_path / "front.csv", tmp_path / "t.exr"
+    base = Settings((2,), 4, profile_error=0.0, nodes=14)
+    points = [
+        Point(base, 0.1, 0.0, 1.0, 0.5, 0.9, 0.01),
+        Point(replace(base, knots=(3,), interpolation="linear"), 1.0, 0.0, 1.0, 0.05, 0.1, 0.01),
+    ]
+    write_points(path, points, [])
+    always = ["--no-profile", "--front", str(path), "--force", "-o", str(out)]
+    for limit, chosen in (("--max-delta-e=0.2", 1), ("--max-seconds=1.2", 0)):
+        assert main(["build", limit, "--bands", "visible", "--threads", "1", *always]) == 0
+        assert settings_of(read_table(out)) == replace(points[chosen].settings, bands=())
+        assert "chosen: knots " in capsys.readouterr().out
+    assert main(["build", "--max-delta-e", "0.01", *always]) == 2
+    assert main(["build", "--max-delta-e", "nan", *always]) == 2
+    with pytest.raises(SystemExit):
+        main(["build", "--max-delta-e", "1", "--max-seconds", "1", *always])
+
+
+def test_the_shipped_front_is_shown_at_once(capsys):
+    assert main(["trade"]) == 0
+    shown = capsys.readouterr().out.splitlines()
+    assert len(shown) == len(shipped_points())
+    assert {name for name in PRESETS if any(f"({name})" in line for line in shown)} == set(PRESETS)
+    assert main(["trade", "--max-seconds", "1e6"]) == 0
+    assert "chosen:" in capsys.readouterr().out
+
+
+def test_a_trade_replaces_nothing_unasked(tmp_path, capsys):
+    (tmp_path / "a_parts.csv").write_text("mine")
+    assert main(["trade", "--quick", "-o", str(tmp_path / "a.png")]) == 2
+    assert "a_parts.csv" in capsys.readouterr().err
+    assert [each.name for each in tmp_path.iterdir()] == ["a_parts.csv"]
+
+
+@pytest.mark.slow
+def test_points_put_together_are_what_tables_are(quick):
+    """Colours of tables that are built, at the same states: fewer nodes' shift is well added."""
+    states = between_knots(S3, QUICK.states, 1)
+    direct = reflectances(S3, states, FINE, QUICK.fine_nodes) @ rec709_weights(FINE).T
+    asked = {(5, 2): ("pchip", 14), (3,): ("linear", 22)}
+    for one in quick.points:
+        made = one.settings
+        kind = asked.get(made.knots)
+        if made.has_profile or kind != (made.interpolation, made.nodes):
+            continue
+        apart = difference(build(S3, made).plane("total_colour", states), direct)
+        assert one.delta_e_mean == pytest.approx(apart.mean(), abs=0.003)
+        assert one.delta_e_largest == pytest.approx(apart.max(), abs=0.003)
+        asked[made.knots] = None
+    assert set(asked.values()) == {None}
+
+
+@pytest.mark.slow
+def test_what_was_measured_is_in_order(quick):
+    """More knots, wavelengths, nodes, rays, paths, components: less error."""
+    mean = {(row["traded"], row["setting"]): float(row["mean"]) for row in quick.parts}
+    assert mean["wavelengths", 8] < mean["wavelengths", 4]
+    assert mean["nodes, spectrum", 22] < mean["nodes, spectrum", 14]
+    assert mean["rays, spectrum", 1000] > mean["nodes, spectrum", 22]
+    assert mean["knots, pchip", "5 2"] < mean["knots, pchip", "3"]
+    for name in ("PCA", "PPCA"):
+        errors = [mean[f"components, {name}", count] for count in (1, 2, 3)]
+        assert errors == sorted(errors, reverse=True)
+    assert all(mean["components, PPCA", n] < mean["components, PCA", n] for n in (1, 2, 3))
+    assert mean["number", "float"] == 0.0 < mean["number", "half"] < 0.03
+    assert all(each.shared_seconds > 0.0 and each.start_seconds > 0.0 for each in quick.points)
+
+
+@pytest.mark.slow
+def test_a_trade_is_written_and_can_be_chosen_from(tmp_path, capsys):
+    picture = tmp_path / "t.png"
+    asked = ["trade", "--specimen", "S3", "--quick", "-o", str(picture)]
+    assert main([*asked, "--max-delta-e", "50"]) == 0
+    assert "chosen: knots" in capsys.readouterr().out
+    assert imread(picture).shape[2] in (3, 4)
+    assert front(read_points(tmp_path / "t.csv")) == read_points(tmp_path / "t.csv")
+    parts = (tmp_path / "t_parts.csv").read_text()
+    assert "skin: S3" in parts and "components, PPCA" in parts
+
+
+@pytest.mark.slow
+def test_an_interrupted_trade_leaves_nothing(tmp_path):
+    command = [sys.executable, "-m", "lut_builder.cli", "trade", "-o", str(tmp_path / "t.png")]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, start_new_session=True)
+    assert process.stderr is not None
+    seen = b""
+    while b"time against error" not in seen:
+        seen += process.stderr.read(1)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    _, rest = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert rest.splitlines()[-1].endswith(b"cancelled")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+def test_profiles_stop_where_they_would_take_too_long():
+    """Two are always walked, or nothing would be known of how the error falls."""
+    states = between_knots(S3, 2, 1)
+    table = Settings((2,), 4, (), 0.1, 4, nodes=10)
+    runs = profile_runs(S3, table, (0.1, 0.05, 0.001), states, 0.0, 1)
+    assert [each.error for each in runs] == [0.1, 0.05]
+    assert all(each.widths.shape == (2, 3) and each.shared > 0.0 for each in runs)

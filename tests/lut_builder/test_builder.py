@@ -303,7 +303,13 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
     capsys.readouterr()
     assert main(["info", str(path)]) == 0
     described = capsys.readouterr().out
-    for word in ("specimen: S3", "pigmentation: low", "nodes: 22", "ESTIMATE", "axis 2"):
+    for word in (
+        "specimen: S3",
+        "pigmentation: low",
+        f"nodes: {PRESETS['preview'].nodes}",
+        "ESTIMATE",
+        "axis 2",
+    ):
         assert word in described
     assert "profile_error: " in described and ", mean " in described
     assert main(["check", str(path), "--states", "2"]) == 0

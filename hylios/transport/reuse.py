@@ -393,9 +393,9 @@ def _shared(
     rays = allocated(*_tried(mixture, angle, (*key, 0), threads), FIRST * limit)
     found = _pooled(mixture, rays, angle, (*key, 1), threads)
     missing = _missing(found, limit)
-    more = np.ceil(rays * missing.max()).astype(int)
     alone = limit / np.maximum(found.subsurface, 1.0 / MOST_PER_PATH)
-    if 0 < more.sum() <= alone[missing > 0.0].sum():
+    more = np.ceil(rays * _worthwhile(missing, alone / max(rays.sum(), 1))).astype(int)
+    if more.any():
         found = _joined(found, _pooled(mixture, more, angle, (*key, 2), threads))
         missing = _missing(found, limit)
     for number in np.flatnonzero(missing):
@@ -415,6 +415,16 @@ def _missing(found: Profiles, limit: float) -> np.ndarray:
     reached = np.minimum(found.effective_sample_size, (0.5 / error) ** 2)
     needed = SPARE * limit / np.maximum(reached, 1e-6 * limit)
     return np.where(reached < limit, needed - 1.0, 0.0)
+
+
+def _worthwhile(missing: np.ndarray, alone: np.ndarray) -> float:
+    """Of the rays spent, how many more to share, and leave to themselves who need yet more.
+
+    The fewest rays in all, where `alone` (S,) is what each state would need by itself.
+    """
+    choices = np.append(0.0, missing)
+    costs = [each + alone[missing > each].sum() for each in choices]
+    return float(choices[np.argmin(costs)])
 
 
 def _joined(first: Profiles, second: Profiles) -> Profiles:

@@ -8,14 +8,16 @@ the two densities as its weight.
 Paths are pooled: rays are spent in several states, and a path counts for a state with its density
 there over the sum of its densities in all of those, times their rays (the balance heuristic of
 E. Veach and L. Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering").
-So neighbours help each other, and no weight exceeds what the state's own rays would give it. How
-many rays are spent in which state (`allocated`) is chosen for the fewest in all with which every
-state has the effective sample size that is asked for; where reuse does not pay, this comes down to
-simulating each state for itself. What falls short of its limit all the same is simulated anew.
+So neighbours help each other, and where rays are spent in a state itself, no weight exceeds what
+these alone would give. How many are spent in which state (`allocated`) is chosen for the fewest in
+all with which every state has the effective sample size that is asked for; where reuse does not
+pay, this comes down to simulating each state for itself. What falls short of its limit all the
+same is simulated anew.
 
-All paths are walked in layers of one thickness, in which every state is put (`rescaled`). What is
-not exact: melanosomes, which keep their size, then lie more densely; and see
-`hylios.transport.recording`. The tests say how little it is.
+All paths are walked in layers of one thickness, into which every state is put (`rescaled`). What
+is not exact: melanosomes, which keep their size, lie more or less densely there; and see
+`hylios.transport.recording`. With 1e6 rays neither shows: at 550 nm S4's light at .8 and 1.48 of
+the thickness is its own walk's within their noise, .4 %; with coefficients only scaled, 3 % off.
 """
 
 import os
@@ -391,9 +393,9 @@ def _shared(
     rays = allocated(*_tried(mixture, angle, (*key, 0), threads), FIRST * limit)
     found = _pooled(mixture, rays, angle, (*key, 1), threads)
     missing = _missing(found, limit)
-    more = np.ceil(rays * missing.max()).astype(int)
     alone = limit / np.maximum(found.subsurface, 1.0 / MOST_PER_PATH)
-    if 0 < more.sum() <= alone[missing > 0.0].sum():
+    more = np.ceil(rays * _worthwhile(missing, alone / max(rays.sum(), 1))).astype(int)
+    if more.any():
         found = _joined(found, _pooled(mixture, more, angle, (*key, 2), threads))
         missing = _missing(found, limit)
     for number in np.flatnonzero(missing):
@@ -413,6 +415,16 @@ def _missing(found: Profiles, limit: float) -> np.ndarray:
     reached = np.minimum(found.effective_sample_size, (0.5 / error) ** 2)
     needed = SPARE * limit / np.maximum(reached, 1e-6 * limit)
     return np.where(reached < limit, needed - 1.0, 0.0)
+
+
+def _worthwhile(missing: np.ndarray, alone: np.ndarray) -> float:
+    """Of the rays spent, how many more to share, and leave to themselves who need yet more.
+
+    The fewest rays in all, where `alone` (S,) is what each state would need by itself.
+    """
+    choices = np.append(0.0, missing)
+    costs = [each + alone[missing > each].sum() for each in choices]
+    return float(choices[np.argmin(costs)])
 
 
 def _joined(first: Profiles, second: Profiles) -> Profiles:

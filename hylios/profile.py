@@ -11,7 +11,7 @@ import numpy as np
 from hylios.errors import InputError
 
 
-def burley_share_within(distance: np.ndarray, width: float) -> np.ndarray:
+def burley_share_within(distance: np.ndarray, width: float | np.ndarray) -> np.ndarray:
     """Share of the light that leaves within a distance, for a profile of width d."""
     ratio = np.asarray(distance) / width
     return 1.0 - 0.25 * np.exp(-ratio) - 0.75 * np.exp(-ratio / 3.0)

@@ -19,13 +19,12 @@ import numpy as np
 from scipy.optimize import least_squares
 from threadpoolctl import threadpool_limits
 
-from hylios.adding import solve
+from hylios.adding import spectra
 from hylios.errors import InputError, require_range
 from hylios.physiology import PHYSIOLOGY
 from hylios.quadrature import skin_quadrature
 from hylios.specimen import EPIDERMIS, Specimen, parameters
 from hylios.spectra import Figures
-from hylios.tissue import stack
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -302,22 +301,6 @@ def _bounds(start: Specimen, name: str) -> tuple[float, float]:
     return low, high
 
 
-def _reflectances(
-    specimens: Sequence[Specimen],
-    wavelengths: np.ndarray,
-    angle: float,
-    known: Figures | None,
-    chosen: Mapping[str, str] | None,
-) -> np.ndarray:
-    """Total reflectance (S, W), without noise."""
-    stacks = [
-        stack(each, wavelength, known=known, chosen=chosen)
-        for each in specimens
-        for wavelength in wavelengths
-    ]
-    return solve(stacks, angle).total.reshape(len(specimens), -1)
-
-
 def _require_shares(name: str, values: np.ndarray) -> None:
     for each in values:
         require_range(name, float(each), 0.0, 1.0)
@@ -358,7 +341,8 @@ def fit_spectrum(
     _require_shares("a reflectance to fit", reflectance)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        return _reflectances(specimens, wavelengths, angle, known, chosen)
+        found = spectra(specimens, wavelengths, angle=angle, known=known, chosen=chosen)
+        return found.total
 
     return fit(start, observe, reflectance, SPECTRAL_UNCERTAINTY, free)
 
@@ -393,7 +377,7 @@ def fit_colour(
     few = skin_quadrature(COLOUR_COUNT)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        seen = _reflectances(specimens, few.wavelengths, angle, known, chosen)
-        return lab(seen @ few.weights.T)
+        seen = spectra(specimens, few.wavelengths, angle=angle, known=known, chosen=chosen)
+        return lab(seen.total @ few.weights.T)
 
     return fit(start, observe, lab(linear_of_srgb(srgb)), COLOUR_UNCERTAINTY, free)

@@ -16,12 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from hylios.adding import solve
+from hylios.adding import spectra
 from hylios.colour import difference, rec709_weights
 from hylios.profile import burley_share_within, burley_width
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
-from hylios.tissue import stack
 from hylios.transport.reuse import skin_profiles
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
@@ -91,8 +90,7 @@ def reflectances(
     found = []
     for first in range(0, len(states), STATES_TOGETHER):
         some = [made_for.tanned(each[:3], each[3]) for each in states[first:][:STATES_TOGETHER]]
-        light = solve([stack(each, float(at)) for each in some for at in wavelengths], ANGLE, nodes)
-        found.append((light.surface + light.subsurface).reshape(len(some), -1))
+        found.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
     return np.concatenate(found)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.adding import solve
+from hylios.adding import spectra
 from hylios.adding.solver import NODES
 from hylios.adding.ultraviolet import tabulated
 from hylios.quadrature import skin_quadrature
@@ -17,7 +17,6 @@ from hylios.skin import Skin
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.table import StateAxes
-from hylios.tissue import stack
 from lut_builder.settings import Settings
 
 ANGLE = 8.0
@@ -169,17 +168,15 @@ def _colours(request: Request) -> Iterator[Piece]:
 
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
-    stacks = [
-        stack(specimen, float(wavelength), known=request.known, chosen=request.chosen)
-        for specimen in _specimens(request, states)
-        for wavelength in wavelengths(request.settings)
-    ]
-    found = solve(stacks, ANGLE, request.settings.nodes)
-    shape = len(states), -1
-    return {
-        "surface": found.surface.reshape(shape),
-        "subsurface": found.subsurface.reshape(shape),
-    }
+    found = spectra(
+        _specimens(request, states),
+        wavelengths(request.settings),
+        angle=ANGLE,
+        nodes=request.settings.nodes,
+        known=request.known,
+        chosen=request.chosen,
+    )
+    return {"surface": found.surface, "subsurface": found.subsurface}
 
 
 def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:

@@ -5,7 +5,7 @@ The model is the random walk's of `hylios.transport`, averaged instead of drawn;
 
 from hylios.adding.colours import StateColours, colours
 from hylios.adding.solver import NODES, Reflectance, solve
-from hylios.adding.spectrum import Spectrum, spectrum
+from hylios.adding.spectrum import Spectrum, spectra, spectrum
 
 __all__ = [
     "NODES",
@@ -14,5 +14,6 @@ __all__ = [
     "StateColours",
     "colours",
     "solve",
+    "spectra",
     "spectrum",
 ]

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.adding.solver import NODES
+from hylios.adding.spectrum import spectra
 from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.spectra import Figures, figures, require_wavelengths
-from hylios.tissue import stack
 
 TOGETHER = 16
 """States solved at once: after each so many progress is told."""
@@ -80,7 +80,10 @@ def colours(
     pieces = []
     for first in range(0, len(states), TOGETHER):
         some = states[first : first + TOGETHER]
-        pieces.append(_solved(made_for, some, wavelengths, angle, nodes, known, chosen))
+        tanned = [made_for.tanned(state[:3], state[3]) for state in some]
+        pieces.append(
+            spectra(tanned, wavelengths, angle=angle, nodes=nodes, known=known, chosen=chosen)
+        )
         if progress:
             progress(len(some))
     empty = np.empty((0, len(wavelengths)))
@@ -91,23 +94,3 @@ def colours(
         total[:, :count] @ colour.weights.T,
         total[:, count:],
     )
-
-
-def _solved(
-    made_for: Skin,
-    states: np.ndarray,
-    wavelengths: Sequence[float],
-    angle: float,
-    nodes: int,
-    known: Figures,
-    chosen: Mapping[str, str] | None,
-) -> Reflectance:
-    """Reflectance of states at wavelengths, with arrays (N, W)."""
-    tanned = [made_for.tanned(state[:3], state[3]) for state in states]
-    stacks = [
-        stack(each, float(nm), known=known, chosen=chosen) for each in tanned for nm in wavelengths
-    ]
-    found = solve(stacks, float(angle), nodes)
-    shape = (len(states), len(wavelengths))
-    shares = (found.surface, found.subsurface, found.transmittance)
-    return Reflectance(*(each.reshape(shape) for each in shares))

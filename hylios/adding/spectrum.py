@@ -24,6 +24,27 @@ class Spectrum(Reflectance):
     wavelengths: np.ndarray
 
 
+def spectra(
+    specimens: Sequence[Specimen],
+    wavelengths: Iterable[float],
+    *,
+    angle: float = 8.0,
+    nodes: int = NODES,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+) -> Reflectance:
+    """Reflectance of S specimens at W wavelengths in nm, solved together; its arrays are (S, W).
+
+    Parameters and errors as in `spectrum`, for one angle.
+    """
+    asked = [float(each) for each in wavelengths]
+    stacks = [stack(each, nm, known=known, chosen=chosen) for each in specimens for nm in asked]
+    found = solve(stacks, float(angle), nodes)
+    shape = len(specimens), len(asked)
+    shares = found.surface, found.subsurface, found.transmittance
+    return Reflectance(*(each.reshape(shape) for each in shares))
+
+
 def spectrum(
     specimen: Specimen,
     wavelengths: Iterable[float],

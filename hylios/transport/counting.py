@@ -1,6 +1,5 @@
 """Counts over many rays through one stack, piece by piece on all cores."""
 
-import os
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -9,7 +8,7 @@ from hylios.errors import require_whole
 from hylios.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack, stack
-from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, trace
+from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, thread_count, trace
 from hylios.transport.survival import with_survival
 
 
@@ -69,7 +68,7 @@ def counted(
         If the angle or a number is out of range.
     """
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
-    threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
+    threads = thread_count(threads)
 
     def piece(first: int) -> np.ndarray:
         size = min(CHUNK, rays - first)

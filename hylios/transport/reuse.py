@@ -20,7 +20,6 @@ is not exact: melanosomes, which keep their size, lie more or less densely there
 the thickness is its own walk's within their noise, .4 %; with coefficients only scaled, 3 % off.
 """
 
-import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -34,7 +33,15 @@ from hylios.tissue import Layer, Stack
 from hylios.transport.counting import skin_key, skin_stack
 from hylios.transport.generator import stream
 from hylios.transport.recording import SUMS, record_paths
-from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, MOST_RAYS, NO_END, count, in_threads
+from hylios.transport.simulate import (
+    CHUNK,
+    DISTANCE_EDGES,
+    MOST_RAYS,
+    NO_END,
+    count,
+    in_threads,
+    thread_count,
+)
 from hylios.transport.survival import with_survival
 from hylios.transport.walk import kernel_arguments
 
@@ -594,7 +601,7 @@ def _counted(
     exits, spent = np.zeros(DISTANCE_EDGES.size, int), 0
     while exits.sum() < limit and spent < MOST_PER_PATH * limit:
         firsts = range(spent, spent + PIECES * size, size)
-        exits += sum(in_threads(piece, iter(firsts), _threads(threads)))
+        exits += sum(in_threads(piece, iter(firsts), thread_count(threads)))
         spent += PIECES * size
     return exits, spent
 
@@ -615,17 +622,13 @@ def _in_order(function: Callable, tasks: Iterable, threads: int | None):
     """Results of tasks in their order, whichever ends first, so that sums are the same."""
     waiting, due = {}, 0
     numbered = in_threads(
-        lambda task: (task[0], function(task[1])), iter(enumerate(tasks)), _threads(threads)
+        lambda task: (task[0], function(task[1])), iter(enumerate(tasks)), thread_count(threads)
     )
     for number, result in numbered:
         waiting[number] = result
         while due in waiting:
             yield waiting.pop(due)
             due += 1
-
-
-def _threads(threads: int | None) -> int:
-    return require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
 
 
 def _ready(layers: Stack) -> Stack:

@@ -280,7 +280,7 @@ def spectrum(
     asked = require_wavelengths(wavelengths, known or figures())
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     seed = require_whole("seed", seed, 0, 2**63)
-    threads = require_whole("number of threads", threads or os.cpu_count() or 1, 1, 1024)
+    threads = thread_count(threads)
     stacks = [
         _ready(stack(specimen, each, known=known, chosen=chosen), as_printed) for each in asked
     ]
@@ -330,6 +330,17 @@ def _absorber_shares(
     table = np.moveaxis(table, -1, 0)
     whole = table.sum(axis=-1, keepdims=True)
     return np.divide(table, whole, out=np.zeros_like(table), where=whole > 0)
+
+
+def thread_count(asked: int | None) -> int:
+    """Number of threads: as many as asked for, all cores for None or 0.
+
+    Raises
+    ------
+    InputError
+        If there are to be fewer than 0 or more than 1024.
+    """
+    return require_whole("number of threads", asked or os.cpu_count() or 1, 1, 1024)
 
 
 def in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:

@@ -17,7 +17,7 @@ def burley_share_within(distance: np.ndarray, width: float | np.ndarray) -> np.n
     return 1.0 - 0.25 * np.exp(-ratio) - 0.75 * np.exp(-ratio / 3.0)
 
 
-def burley_width(edges: np.ndarray, weights: np.ndarray) -> float:
+def burley_width(edges: np.ndarray, weights: np.ndarray) -> float | np.ndarray:
     """Width d of the Burley profile nearest to light counted by distance.
 
     The fit minimises the area between the two cumulative distributions over the logarithm of the
@@ -27,35 +27,41 @@ def burley_width(edges: np.ndarray, weights: np.ndarray) -> float:
     ----------
     edges : (N,) ascending array
         Where each bin of distances starts, the first at 0; the last bin is open. d has its unit.
-    weights : (N,) array
+    weights : (..., N) array
         Light in each bin, not negative.
 
     Returns
     -------
-    float
+    float, or (...) array
         The width, to 1e-4 of itself.
 
     Raises
     ------
     InputError
-        If a weight is negative or all are 0.
+        If a weight is negative or all of a profile are 0.
     """
     weights = np.asarray(weights, dtype=float)
-    if np.any(weights < 0) or not weights.sum() > 0:
+    whole = weights.sum(axis=-1, keepdims=True)
+    if np.any(weights < 0) or not np.all(whole > 0):
         raise InputError("a profile needs light: weights of 0 or more, not all 0.")
     ends = np.asarray(edges[1:], dtype=float)
-    measured = np.cumsum(weights)[:-1] / weights.sum()
+    measured = np.cumsum(weights, axis=-1)[..., :-1] / whole
     spacing = np.gradient(np.log(ends))
 
-    def misfit(logarithm: float) -> float:
-        difference = burley_share_within(ends, np.exp(logarithm)) - measured
-        return float(np.sum(spacing * difference**2))
+    def misfit(logarithms: np.ndarray) -> np.ndarray:
+        within = burley_share_within(ends, np.exp(logarithms)[..., None])
+        return np.sum(spacing * (within - measured) ** 2, axis=-1)
 
-    grid = np.linspace(np.log(ends[0] / 3.0), np.log(ends[-1]), 200)
-    best = int(np.argmin([misfit(each) for each in grid]))
-    low, high = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
-    return float(np.exp(_golden_minimum(misfit, low, high)))
+    grid = np.linspace(np.log(ends[0] / 3.0), np.log(ends[-1]), GRID)
+    shape = measured.shape[:-1]
+    best = np.argmin([misfit(np.full(shape, each)) for each in grid], axis=0)
+    low, high = grid[np.maximum(best - 1, 0)], grid[np.minimum(best + 1, GRID - 1)]
+    width = np.exp(_golden_minimum(misfit, low, high, grid[2] - grid[0]))
+    return width if shape else float(width)
 
+
+GRID = 200
+"""Widths tried first."""
 
 RESAMPLINGS = 40
 
@@ -83,16 +89,17 @@ def burley_width_error(edges: np.ndarray, counts: np.ndarray) -> float:
         raise InputError("a profile needs light: weights of 0 or more, not all 0.")
     random = np.random.default_rng(1)
     drawn = random.multinomial(counts.sum(), counts / counts.sum(), size=RESAMPLINGS)
-    return float(np.std([burley_width(edges, each) for each in drawn], ddof=1))
+    return float(np.std(burley_width(edges, drawn), ddof=1))
 
 
-def _golden_minimum(function, low: float, high: float) -> float:
-    """Where a function of one minimum in [low, high] has it, to 1e-4 (golden section)."""
+def _golden_minimum(function, low: np.ndarray, high: np.ndarray, widest: float) -> np.ndarray:
+    """Where functions of one minimum each in [low, high] have it, to 1e-4 (golden section).
+
+    `widest` is the most that high - low can be.
+    """
     ratio = 0.5 * (np.sqrt(5.0) - 1.0)
-    while high - low > 1e-4:
+    for _ in range(int(np.ceil(np.log(1e-4 / widest) / np.log(ratio)))):
         left, right = high - ratio * (high - low), low + ratio * (high - low)
-        if function(left) < function(right):
-            high = right
-        else:
-            low = left
+        falls = function(left) >= function(right)
+        low, high = np.where(falls, left, low), np.where(falls, high, right)
     return 0.5 * (low + high)

@@ -182,13 +182,8 @@ def _profile_planes(
             anew=found[0]["anew"],
         )
         seen = np.maximum(channel.light, 0.0)
-        widths.append(
-            [
-                # Where no light comes out of the skin any width will do.
-                burley_width(DISTANCE_EDGES, each) if each.sum() > 0.0 else DISTANCE_EDGES[1]
-                for each in seen
-            ]
-        )
+        seen[~seen.any(axis=1), 0] = 1.0  # where no light comes out any width will do
+        widths.append(burley_width(DISTANCE_EDGES, seen))
         errors.append(channel.standard_error.max(axis=1))
         samples.append(channel.effective_sample_size)
     return {

@@ -52,13 +52,24 @@ def survival_in_melanosome(layer: Layer, melanin_index: float) -> float:
     InputError
         If the melanosome's shape or the ratio of refractive indices lies outside the table.
     """
-    aspect, ratio = layer.semi_minor / layer.semi_major, melanin_index / layer.refractive_index
+    aspect, ratio = _looked_up(layer, melanin_index)
     require_range("minor to major axis of melanosomes", aspect, LEAST_ASPECT, 1.0)
     require_range("refractive index of melanosomes relative to the tissue", ratio, 1.0, MOST_RATIO)
     lengths, weights = _table()
     each = (weights * np.exp(-layer.melanin_absorption * layer.semi_minor * lengths)).sum(axis=2)
     along, across = _interpolating(aspect, ratio)
     return float(np.clip(along @ each @ across, 0.0, 1.0))
+
+
+def is_tabulated(layer: Layer, melanin_index: float) -> bool:
+    """Whether the table reaches to the shape and the refractive index of a layer's melanosomes."""
+    aspect, ratio = _looked_up(layer, melanin_index)
+    return LEAST_ASPECT <= aspect <= 1.0 <= ratio <= MOST_RATIO
+
+
+def _looked_up(layer: Layer, melanin_index: float) -> tuple[float, float]:
+    """Semi-minor to semi-major axis, and refractive index inside to outside."""
+    return layer.semi_minor / layer.semi_major, melanin_index / layer.refractive_index
 
 
 @lru_cache(maxsize=1024)

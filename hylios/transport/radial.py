@@ -78,7 +78,7 @@ class RadialExitance:
             If no ray came back from inside.
         """
         self._require_light()
-        return burley_width(self.edges, self.counts)
+        return float(burley_width(self.edges, self.counts))
 
     @property
     def burley_width_error(self) -> float:

@@ -26,11 +26,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hylios.adding.melanosomes import encounters
+from hylios.adding.survival import is_tabulated, survival_in_melanosome
 from hylios.errors import InputError, require_range, require_whole
 from hylios.specimen import Specimen
 from hylios.spectra import Figures, figures, require_wavelengths
-from hylios.tissue import Layer, Stack
-from hylios.transport.counting import skin_key, skin_stack
+from hylios.tissue import Layer, Stack, stack
+from hylios.transport.counting import skin_key
 from hylios.transport.generator import stream
 from hylios.transport.recording import SUMS, record_paths
 from hylios.transport.simulate import (
@@ -52,8 +53,11 @@ out, and weigh less. The fewest seconds per effective path, flatly, at .5 to .7 
 TOGETHER = 96
 """States that share paths at most."""
 
-PILOT_RAYS, PILOT_PATHS, PILOT_ROUNDS = 64, 2048, 48
+PILOT_RAYS, PILOT_PATHS, PILOT_ROUNDS = 64, 512, 48
 """Of the trial before rays are allocated: rays per state and round, paths wanted, most rounds."""
+
+DOUBT = 4.0
+"""Standard errors by which a state's trial may have more light than shared paths find."""
 
 STEPS = 50
 """Of the iteration that allocates rays."""
@@ -75,6 +79,12 @@ BLOCK = 4096
 
 PIECES = 4
 """Of rays that are counted between looks at how many came out."""
+
+LIGHT = 0.3
+"""Share of light from which on a profile has the error that was asked for."""
+
+LARGEST_ERROR = 0.1
+"""Of the profile of however little light."""
 
 MOST_PER_PATH = 400
 """Rays per effective path after which a state that lets out hardly any light is left as it is."""
@@ -332,9 +342,9 @@ def profiles(
         Of finite thickness. They may differ in absorption, in amounts of what scatters, and by
         one factor on all thicknesses.
     error : float
-        Largest standard error of the cumulative profile that is asked for, .0005 to .1: each
-        stack gets that, and an effective sample size of .25 / `error`^2 or more, unless hardly
-        any light comes out of it.
+        Largest standard error of the cumulative profile that is asked for, .0005 to .1, of light
+        skin; darker skin's may be larger (`needed_samples`). Each stack gets that, and so large an
+        effective sample size, unless hardly any light comes out of it.
     angle : float
         Of incidence, in degrees, 0 to 89.99.
     key : tuple of int
@@ -347,13 +357,13 @@ def profiles(
     InputError
         If a number is out of range or the stacks differ in more.
     """
-    limit = 0.25 / require_range("error of a profile", error, 5e-4, 0.1) ** 2
+    error = require_range("error of a profile", error, 5e-4, LARGEST_ERROR)
     stacks = [_ready(each) for each in stacks]
     if not stacks:
         raise InputError("profiles need at least 1 stack.")
     _require_alike(stacks)
     groups = [
-        _shared(stacks[first : first + TOGETHER], limit, angle, (*key, first), threads)
+        _shared(stacks[first : first + TOGETHER], error, angle, (*key, first), threads)
         for first in range(0, len(stacks), TOGETHER)
     ]
     return Profiles(
@@ -382,7 +392,7 @@ def skin_profiles(
     """
     return [
         profiles(
-            [skin_stack(each, wavelength, known=known, chosen=chosen) for each in specimens],
+            [stack(each, wavelength, known=known, chosen=chosen) for each in specimens],
             error=error,
             angle=angle,
             key=skin_key(seed, wavelength),
@@ -392,34 +402,61 @@ def skin_profiles(
     ]
 
 
+def needed_samples(light: float | np.ndarray, error: float) -> np.ndarray:
+    """Effective sample size (...) with which a profile's error is seen no more than others'.
+
+    Lightness L* goes with the cube root of the light (CIE 1976): where a small share of a little
+    light is missing it falls by less, so the profile of a share of light below `LIGHT` may have a
+    standard error that is larger by the cube root of their ratio, up to `LARGEST_ERROR`.
+
+    Parameters
+    ----------
+    light : (...) array
+        Share of the incident light.
+    error : float
+        Standard error of the cumulative profile, where it is .5, of more light.
+    """
+    darker = np.clip(light / LIGHT, LEAST, 1.0)
+    return 0.25 / np.minimum(error * darker ** (-1.0 / 3.0), LARGEST_ERROR) ** 2
+
+
 def _shared(
-    stacks: list[Stack], limit: float, angle: float, key: tuple[int, ...], threads: int | None
+    stacks: list[Stack], error: float, angle: float, key: tuple[int, ...], threads: int | None
 ) -> Profiles:
-    """Profiles of stacks with an effective sample size of `limit` or more, as far as can be."""
+    """Profiles of stacks with the effective sample size that they need, as far as can be."""
     mixture = _Mixture.of([_straightened(each) for each in stacks])
-    rays = allocated(*_tried(mixture, angle, (*key, 0), threads), FIRST * limit)
+    proposed, wanted = _tried(mixture, angle, (*key, 0), threads)
+    trial = wanted.sum(axis=0), np.sqrt((wanted**2).sum(axis=0))
+    rays = allocated(proposed, wanted, FIRST * needed_samples(trial[0], error))
     found = _pooled(mixture, rays, angle, (*key, 1), threads)
-    missing = _missing(found, limit)
-    alone = limit / np.maximum(found.subsurface, 1.0 / MOST_PER_PATH)
+    missing = _missing(found, trial, error)
+    alone = needed_samples(found.subsurface, error)
+    alone = alone / np.maximum(found.subsurface, 1.0 / MOST_PER_PATH)
     more = np.ceil(rays * _worthwhile(missing, alone / max(rays.sum(), 1))).astype(int)
     if more.any():
         found = _joined(found, _pooled(mixture, more, angle, (*key, 2), threads))
-        missing = _missing(found, limit)
+        missing = _missing(found, trial, error)
     for number in np.flatnonzero(missing):
-        exits, spent = _counted(stacks[number], limit, angle, (*key, 3, int(number)), threads)
+        own = (*key, 3, int(number))
+        exits, spent = _counted(stacks[number], error, angle, own, threads)
         found.light[number], found.squares[number] = exits / spent, exits / spent**2
         found.rays[number] += spent
         found.anew[number] = True
     return found
 
 
-def _missing(found: Profiles, limit: float) -> np.ndarray:
+def _missing(found: Profiles, trial: tuple[np.ndarray, np.ndarray], error: float) -> np.ndarray:
     """Of the rays spent, how many more each state needs for its limit, (S,); 0 where none.
 
     Weights that go with distance can make the profile less sure than so many equal paths would.
+    And where paths of others miss most of a state's light, their weights do not show it: its own
+    trial, light (S,) and standard error (S,), does.
     """
-    error = np.maximum(found.standard_error.max(axis=1), 1e-9)
-    reached = np.minimum(found.effective_sample_size, (0.5 / error) ** 2)
+    limit = needed_samples(found.subsurface, error)
+    largest = np.maximum(found.standard_error.max(axis=1), 1e-9)
+    reached = np.minimum(found.effective_sample_size, (0.5 / largest) ** 2)
+    doubt = DOUBT * np.hypot(trial[1], found.subsurface_error)
+    reached[trial[0] - found.subsurface > doubt] = 0.0
     needed = SPARE * limit / np.maximum(reached, 1e-6 * limit)
     return np.where(reached < limit, needed - 1.0, 0.0)
 
@@ -514,12 +551,12 @@ def _tried(
     return proposed / tried, wanted / tried
 
 
-def allocated(proposed: np.ndarray, wanted: np.ndarray, limit: float) -> np.ndarray:
+def allocated(proposed: np.ndarray, wanted: np.ndarray, limit: np.ndarray) -> np.ndarray:
     """How many rays to spend in each of A walked stacks, (A,) int.
 
     With n_a rays in stack a, state s has, for each path of density p_s, the weight
     p_s / sum(n_a q_a), and an effective sample size that follows from the mean of its square. Its
-    inverse is convex in n. Found are the fewest rays for which no state has less than `limit`: by
+    inverse is convex in n. Found are the fewest rays for which no state has less than its limit: by
     the multiplicative iteration of optimal design for n, and one of the same kind for how much
     each state has to say.
 
@@ -528,14 +565,14 @@ def allocated(proposed: np.ndarray, wanted: np.ndarray, limit: float) -> np.ndar
     proposed, wanted : (N, A) and (N, S) arrays
         Densities of N tried paths in the walked stacks and in the states, each over the density
         of that path's being tried: their sums are shares of light.
-    limit : float
-        Effective sample size.
+    limit : (S,) array
+        Effective sample sizes.
     """
     light = wanted.sum(axis=0)
     seen = light > 0.0
     if not seen.any():
         return np.zeros(proposed.shape[1], int)
-    scaled = (wanted[:, seen] / light[seen]) ** 2
+    scaled = limit[seen] * (wanted[:, seen] / light[seen]) ** 2
     rays = np.full(proposed.shape[1], 1.0)
     say = np.full(scaled.shape[1], 1.0 / scaled.shape[1])
     for _ in range(STEPS):
@@ -546,8 +583,8 @@ def allocated(proposed: np.ndarray, wanted: np.ndarray, limit: float) -> np.ndar
         rays *= np.sqrt((scaled @ say / pooled**2) @ proposed)
         rays /= rays.sum()
     rays[rays < FEWEST] = 0.0
-    most = ((1.0 / np.maximum(proposed @ rays, LEAST)) @ scaled).max()
-    return np.ceil(rays * min(most, MOST_PER_PATH * rays.size) * limit).astype(int)
+    needed = ((1.0 / np.maximum(proposed @ rays, LEAST)) @ scaled).max()
+    return np.ceil(rays * min(needed, MOST_PER_PATH * rays.size * limit.max())).astype(int)
 
 
 def _pooled(
@@ -587,22 +624,25 @@ def _weighted(mixture: _Mixture, rays: np.ndarray, paths: Paths) -> np.ndarray:
 
 
 def _counted(
-    layers: Stack, limit: float, angle: float, key: tuple[int, ...], threads: int | None
+    layers: Stack, error: float, angle: float, key: tuple[int, ...], threads: int | None
 ) -> tuple[np.ndarray, int]:
-    """Exits (B,) of one stack's own rays, at least `limit` in all, and how many rays it took.
+    """Exits (B,) of one stack's own rays, as many as it needs, and how many rays it took.
 
-    Fewer exits where hardly any light comes out.
+    Fewer where hardly any light comes out.
     """
-    size = int(np.clip(limit / PIECES, 256, CHUNK))
+    most = needed_samples(1.0, error)
+    size = int(np.clip(most / PIECES**2, 256, CHUNK))
 
     def piece(first: int) -> np.ndarray:
         return count(layers, rays=size, angle=angle, key=(*key, first)).exits
 
     exits, spent = np.zeros(DISTANCE_EDGES.size, int), 0
-    while exits.sum() < limit and spent < MOST_PER_PATH * limit:
+    while spent < MOST_PER_PATH * most:
         firsts = range(spent, spent + PIECES * size, size)
         exits += sum(in_threads(piece, iter(firsts), thread_count(threads)))
         spent += PIECES * size
+        if exits.sum() >= needed_samples(exits.sum() / spent, error):
+            break
     return exits, spent
 
 
@@ -632,7 +672,7 @@ def _in_order(function: Callable, tasks: Iterable, threads: int | None):
 
 
 def _ready(layers: Stack) -> Stack:
-    """The stack with survival in melanosomes tabulated.
+    """The stack with survival in melanosomes; paths are walked for what no table has.
 
     Raises
     ------
@@ -641,8 +681,17 @@ def _ready(layers: Stack) -> Stack:
     """
     for each in layers.layers:
         require_range("thickness of a layer", each.thickness, 0.0, 1e9, "cm")
-    missing = any(each.encounter > 0.0 and each.survival < 0.0 for each in layers.layers)
-    return with_survival(layers) if missing else layers
+    index, is_straight = layers.melanin_index, layers.readings["melanosome_entry"] != "refracted"
+    missing = [each for each in layers.layers if each.encounter > 0.0 and each.survival < 0.0]
+    if not (is_straight and all(is_tabulated(each, index) for each in missing)):
+        return with_survival(layers)
+    return replace(
+        layers,
+        layers=tuple(
+            replace(each, survival=survival_in_melanosome(each, index)) if each in missing else each
+            for each in layers.layers
+        ),
+    )
 
 
 def _thickness(layers: Stack) -> float:

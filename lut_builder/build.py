@@ -1,12 +1,10 @@
 """Putting a table together from its pieces."""
 
-from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Mapping
 from dataclasses import asdict
 from os import cpu_count
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 import hylios
 from hylios.phototypes import PHOTOTYPES, phototype, specimens
@@ -20,12 +18,10 @@ from hylios.tissue import FIGURES, readings
 from lut_builder.pieces import ANGLE, Piece, Request, computed, pieces, wavelengths
 from lut_builder.settings import Settings
 from lut_builder.states import choose_axes, needed_knots
+from lut_builder.work import Unit, done, in_threads
 
 SOLVER_ERROR = 3e-4
 """Of a reflectance by `hylios.adding`, rms against the random walk."""
-
-Progress = Callable[[float], object]
-"""Told the size of each piece as it ends."""
 
 Results = Mapping[str, Mapping[str, np.ndarray]]
 """Arrays of each piece by name."""
@@ -64,6 +60,11 @@ def requested(
     return Request(made_for, settings, axes, needed, seed, own_figures, own_readings)
 
 
+def units(request: Request) -> list[Unit]:
+    """The work of a request."""
+    return [Unit(each.name, computed, (request, each), each.size) for each in pieces(request)]
+
+
 def build(
     made_for: Skin,
     settings: Settings,
@@ -73,37 +74,14 @@ def build(
     known: Figures | None = None,
     chosen: Mapping[str, str] | None = None,
     reached: np.ndarray | None = None,
-    progress: Progress | None = None,
 ) -> SkinTable:
-    """Build a skin's table on this machine; the same whatever the number of threads.
+    """Build a skin's table in this process; the same whatever the number of threads.
 
-    Parameters as in `requested` and `in_threads`, errors as in `requested` and
-    `lut_builder.pieces.computed`.
+    Parameters as in `requested`, errors as there and in `lut_builder.pieces.computed`.
     """
     request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
-    return assembled(request, in_threads(request, threads, progress))
-
-
-def in_threads(
-    request: Request, threads: int | None = None, progress: Progress | None = None
-) -> Results:
-    """All pieces of a request, on threads of this process; all cores by default.
-
-    On an exception, such as Ctrl-C, it does not wait for the pieces that are being computed.
-    """
-    results = {}
-    pool = ThreadPoolExecutor(threads or cpu_count() or 1)
-    try:
-        # The matrices are small: threads of linear algebra cost more than they bring.
-        with threadpool_limits(1, "blas"):
-            waiting = {pool.submit(computed, request, each): each for each in pieces(request)}
-            for future in as_completed(waiting):
-                results[waiting[future].name] = future.result()
-                if progress is not None:
-                    progress(waiting[future].size)
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-    return results
+    runner = in_threads(threads or cpu_count() or 1)
+    return assembled(request, done(units(request), None, "", runner))
 
 
 def assembled(request: Request, results: Results) -> SkinTable:

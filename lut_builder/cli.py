@@ -13,6 +13,7 @@ import numpy as np
 
 from hylios.errors import InputError, require_whole
 from hylios.files import require_target
+from hylios.phototypes import PHOTOTYPES, phototype
 from hylios.quadrature import FEWEST, MOST
 from hylios.shell import (
     add_skin_arguments,
@@ -34,6 +35,7 @@ from lut_builder.front import (
     read_points,
     shipped_points,
     usable_cores,
+    worst,
     write_points,
     write_rows,
 )
@@ -138,6 +140,13 @@ def _parser() -> argparse.ArgumentParser:
     add_work_arguments(trading)
     add_tanning_arguments(trading)
     _add_choice_arguments(trading)
+    trading.add_argument(
+        "--also",
+        choices=PHOTOTYPES,
+        action="append",
+        default=[],
+        help="a skin type for which tables are to do as well; repeatable",
+    )
     trading.add_argument("--quick", action="store_true", help="seconds, to see that it works")
     trading.add_argument("--force", action="store_true", help="replace existing files")
     trading.add_argument(
@@ -231,11 +240,10 @@ def _build(asked: argparse.Namespace) -> None:
     _, known, chosen = chosen_skin(asked)
     made_for = chosen_tanning_skin(asked, asked.untanned)
 
-    from lut_builder.build import assembled, requested
+    from lut_builder.build import assembled, requested, units
     from lut_builder.exr import write_table
-    from lut_builder.pieces import computed, pieces
     from lut_builder.schedule import reached_states, read_schedule
-    from lut_builder.work import Unit, done, software_digest, unfinished
+    from lut_builder.work import done, software_digest, unfinished
 
     reached = None
     if asked.schedule is not None:
@@ -244,12 +252,12 @@ def _build(asked: argparse.Namespace) -> None:
         made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
     )
     wanted, knots = len(request.states), request.needed.size
-    units = [Unit(each.name, computed, (request, each), each.size) for each in pieces(request)]
+    work = units(request)
     with unfinished(asked.output, (".exr",), resume=asked.resume, force=asked.force) as folder:
         if reached is not None:
             print(f"the scene needs {wanted} of {knots} states: {1.0 - wanted / knots:.0%} saved")
-        runner = _runner(asked, sum(each.size for each in units))
-        found = done(units, folder, software_digest(), runner, f"table of {wanted} states")
+        runner = _runner(asked, sum(each.size for each in work))
+        found = done(work, folder, software_digest(), runner, f"table of {wanted} states")
         table = assembled(request, found)
         write_table(folder / asked.output.name, table, half=settings.half)
     cut = table.provenance["states_with_melanin_cut"]
@@ -260,13 +268,14 @@ def _build(asked: argparse.Namespace) -> None:
 
 def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
     """Where the units are done: on a cluster, in this process if they are short, or in several."""
-    from lut_builder.work import in_processes
+    from lut_builder.work import in_processes, in_threads
 
     if asked.dask is not None:
         from lut_builder.cluster import on_cluster
 
         return on_cluster(asked.dask)
-    return in_processes(1 if seconds < SHORT else asked.threads or os.cpu_count() or 1)
+    cores = asked.threads or os.cpu_count() or 1
+    return in_threads(cores) if seconds < SHORT else in_processes(cores)
 
 
 def _trade(asked: argparse.Namespace) -> None:
@@ -283,19 +292,24 @@ def _trade(asked: argparse.Namespace) -> None:
     ]
     for path, kind in zip(written, (".png", ".csv", ".csv"), strict=True):
         require_target(path, (kind,), asked.force)
-    made_for = chosen_tanning_skin(asked)
+    skins = [chosen_tanning_skin(asked), *(phototype(each).skin for each in asked.also)]
 
-    from lut_builder.trade import FULL, QUICK, measure, notes
+    from lut_builder.trade import FULL, QUICK, Trade, measure, notes
     from lut_builder.trade_figure import draw
 
     extent = QUICK if asked.quick else FULL
-    with ExitStack() as stack:
+    measured = []
+    for each in skins:
+        with ExitStack() as stack:
 
-        def begin(total: float) -> Callable[[float], object]:
-            return stack.enter_context(_progress(total, "time against error"))
+            def begin(
+                total: float, stack: ExitStack = stack, name: str = each.specimen.name
+            ) -> Callable[[float], object]:
+                return stack.enter_context(_progress(total, f"time against error, {name}"))
 
-        found = measure(made_for, extent, seed=asked.seed, begin=begin)
-    told = notes(made_for, extent)
+            measured.append(measure(each, extent, seed=asked.seed, begin=begin))
+    found = Trade(worst([each.points for each in measured]), measured[0].parts)
+    told = notes(skins, extent)
     picture, front_file, parts_file = written
     write_points(front_file, found.front, told)
     write_rows(parts_file, found.parts, told)

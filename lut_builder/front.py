@@ -18,13 +18,6 @@ SHIPPED = "front.csv"
 CORES = 2
 """Of the seconds by which points are compared."""
 
-DELTA_E_PER_SHARE = 25.0
-"""CIEDE2000 that counts as much as an error 1 of a profile's share of light.
-
-Where a share s of the light that should leave skin of reflectance .3 is missing, L* falls by
-116 / 3 x .3^(1/3) s = 26 s: so much an error of the profile can do at a place that light reaches
-from one side only. Elsewhere it does less, in even light nothing."""
-
 LEAST_GAIN = 0.02
 """Share by which a point of the front has less error than the one before it."""
 
@@ -59,6 +52,8 @@ class Point:
     profile_rms, profile_largest : float
         Of the difference of the share of light that leaves within a distance, at the distance
         where it is largest; 0 without a profile.
+    profile_delta_e : float
+        The most that such a share missing changes the lightness L* of what is lit from one side.
     """
 
     settings: Settings
@@ -70,6 +65,7 @@ class Point:
     band_rmse: float
     profile_rms: float = 0.0
     profile_largest: float = 0.0
+    profile_delta_e: float = 0.0
 
     def seconds(self, cores: int = CORES) -> float:
         """On so many cores of the machine that measured."""
@@ -81,7 +77,7 @@ class Point:
 
         Their errors are independent: the root of the sum of squares.
         """
-        return float(np.hypot(self.delta_e_largest, DELTA_E_PER_SHARE * self.profile_largest))
+        return float(np.hypot(self.delta_e_largest, self.profile_delta_e))
 
 
 def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GAIN) -> np.ndarray:
@@ -99,6 +95,23 @@ def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GA
             chosen.append(number)
             least = errors[number]
     return np.array(chosen, dtype=int)
+
+
+def worst(skins: Sequence[Sequence[Point]]) -> list[Point]:
+    """Points that hold for all of some skins: of each table the most time and the largest errors.
+
+    Parameters
+    ----------
+    skins : sequence of sequence of Point
+        The same tables of each skin, in the same order.
+    """
+    return [
+        Point(
+            alike[0].settings,
+            **{name: max(getattr(each, name) for each in alike) for name in FIGURES},
+        )
+        for alike in zip(*skins, strict=True)
+    ]
 
 
 def front(points: Sequence[Point]) -> list[Point]:
@@ -178,6 +191,7 @@ def described(point: Point, cores: int = CORES) -> str:
     text += f", CIEDE2000 mean {point.delta_e_mean:.3f}, largest {point.delta_e_largest:.3f}"
     if made.has_profile:
         text += f"; share within a distance {point.profile_largest:.4f} at most off"
+        text += f", which is {point.profile_delta_e:.2f} of L*"
     name = named(point)
     return f"{text} ({name})" if name else text
 

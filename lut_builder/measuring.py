@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from hylios.adding import spectra
-from hylios.colour import difference, rec709_weights
+from hylios.colour import difference, lab, rec709_weights
 from hylios.profile import burley_share_within, burley_width
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
@@ -67,6 +67,26 @@ class Run:
     shared: float
     serial: float
     widths: np.ndarray
+
+
+@dataclass(frozen=True)
+class FineProfiles:
+    """Profiles of N states against which those of tables are measured, for three channels each.
+
+    Attributes
+    ----------
+    widths : (N, 3) array
+        In mm.
+    light : (N, 3) array
+        Of the channel, linear Rec.709, that leaves after having been inside.
+    misfits : (N, 3) array
+        Largest difference of the share of light within a distance, between the walked profile and
+        Burley's of that width: no table that holds widths can do better.
+    """
+
+    widths: np.ndarray
+    light: np.ndarray
+    misfits: np.ndarray
 
 
 def between_knots(made_for: Skin, count: int, seed: int) -> np.ndarray:
@@ -141,14 +161,10 @@ def walk(
     return seconds / found.size, found
 
 
-def fine_widths(
+def fine_profiles(
     made_for: Skin, states: np.ndarray, wavelengths: int, error: float, seed: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Widths (N, 3) of profiles in mm, and how far Burley's profile is from those, (N, 3).
-
-    The latter is the largest difference of the share of light within a distance: no table that
-    holds widths can do better.
-    """
+) -> FineProfiles:
+    """Profiles of states from so many wavelengths, with a standard error."""
     few = skin_quadrature(wavelengths)
     specimens = [made_for.tanned(each[:3], each[3]) for each in states]
     # Another seed than the tables': errors are to be independent.
@@ -156,15 +172,11 @@ def fine_widths(
         specimens, few.wavelengths, error=error, angle=ANGLE, seed=seed + 1, threads=1
     )
     channels = np.einsum("cw,wsb->scb", few.weights, np.array([each.light for each in found]))
-    widths, misfits = np.empty(channels.shape[:2]), np.empty(channels.shape[:2])
-    for place in np.ndindex(widths.shape):
-        light = np.maximum(channels[place], 0.0)
-        widths[place] = burley_width(DISTANCE_EDGES, light)
-        within = np.cumsum(channels[place])[:-1] / channels[place].sum()
-        misfits[place] = np.abs(
-            within - burley_share_within(DISTANCE_EDGES[1:], widths[place])
-        ).max()
-    return widths, misfits
+    light = channels.sum(axis=2)
+    widths = np.asarray(burley_width(DISTANCE_EDGES, np.maximum(channels, 0.0)))
+    within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
+    seen = burley_share_within(DISTANCE_EDGES[1:], widths[..., None])
+    return FineProfiles(widths, light, np.abs(within - seen).max(axis=2))
 
 
 def share_errors(widths: np.ndarray, fine: np.ndarray) -> np.ndarray:
@@ -178,6 +190,21 @@ def share_errors(widths: np.ndarray, fine: np.ndarray) -> np.ndarray:
     seen = burley_share_within(distances, 1.0)
     moved = burley_share_within(distances * np.divide(fine, widths), 1.0)
     return np.abs(moved - seen).max(axis=0)
+
+
+def lightness_lost(light: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """How much the CIE 1976 lightness of a light falls where a share of it is missing.
+
+    So much an error of the profile's share within a distance can do at a place that light reaches
+    from one side only. Elsewhere it does less, in even light nothing.
+
+    Parameters
+    ----------
+    light, shares : (...) arrays
+    """
+    greys = np.stack([light, light * (1.0 - shares)])[..., None] * np.ones(3)
+    before, after = lab(greys)[..., 0]
+    return before - after
 
 
 def profile_runs(

@@ -29,12 +29,14 @@ from lut_builder.check import FINE
 from lut_builder.front import Point, front
 from lut_builder.measuring import (
     Cost,
+    FineProfiles,
     Run,
     between_knots,
     colours,
     component_errors,
-    fine_widths,
+    fine_profiles,
     half_against_full,
+    lightness_lost,
     profile_runs,
     reflectances,
     regions,
@@ -104,8 +106,8 @@ class Extent:
     rays: tuple[int, ...] = (1_000, 10_000, 100_000)
     fine_nodes: int = 36
     fine_profile_wavelengths: int = 12
-    fine_profile_error: float = 0.001
-    longest: float = 5.0
+    fine_profile_error: float = 0.002
+    longest: float = 12.0
     file_knots: tuple[int, ...] = (11, 3, 3, 2)
     repeats: int = 3
 
@@ -169,13 +171,14 @@ class ColourError:
 
 @dataclass(frozen=True)
 class ProfileError:
-    """Of profiles of a table at states between its knots, and their time, as in `Run`."""
+    """Of profiles of a table at states between its knots, and their time, as in `Point`."""
 
     error: float
     shared: float
     serial: float
     rms: float
     largest: float
+    delta_e: float
     walked: bool = True
 
 
@@ -206,11 +209,11 @@ def measure(
         if progress:
             progress(size)
     colour = _colour_errors(made_for, extent, states, found)
-    fine, misfits = found["profile fine"]
+    fine: FineProfiles = found["profile fine"]
     profile = {}
     for count in extent.profile_wavelengths:
         runs = {knots: found["profile", knots, count] for knots in extent.knots}
-        noise = noise_share(list(runs.values()), fine)
+        noise = noise_share(list(runs.values()), fine.widths)
         for knots, each in runs.items():
             profile[knots, count] = completed(each, fine, extent.profile_errors, noise)
     return Trade(
@@ -218,19 +221,21 @@ def measure(
         parts=[
             *_colour_parts(extent, found, colour),
             *_solver_parts(extent, found),
-            *_profile_parts(profile, misfits),
+            *_profile_parts(profile, fine.misfits),
             *_file_parts(*found["half"]),
             *_component_parts(found["broad"]),
         ],
     )
 
 
-def notes(made_for: Skin, extent: Extent) -> list[str]:
-    """Of which machine, day and skin a measurement is."""
+def notes(skins: Sequence[Skin], extent: Extent) -> list[str]:
+    """Of which machine, day and skins a measurement is."""
+    names = "; ".join(f"{each.specimen.name}, pigmentation {each.pigmentation}" for each in skins)
+    several = ": of each table the slowest and least accurate" if len(skins) > 1 else ""
     return [
         f"lut-builder trade, {date.today().isoformat()}: seconds are of this machine's processor",
         f"machine: {_processor()}, Python {platform.python_version()}, numpy {np.__version__}",
-        f"skin: {made_for.specimen.name}, pigmentation {made_for.pigmentation}",
+        f"skin: {names}{several}",
         f"errors: at {extent.states} reachable states that are no knots, "
         f"{extent.profile_states} of them for profiles; tables have {len(BANDS_NM)} single bands",
     ]
@@ -275,7 +280,7 @@ def _steps(made_for: Skin, extent: Extent, states: np.ndarray, seed: int) -> dic
     fine = extent.fine_profile_wavelengths, extent.fine_profile_error
     steps["profile fine"] = (
         fine[0] * (0.2 + 1e-6 * len(seen) / fine[1] ** 2 / 4.0),
-        lambda: fine_widths(made_for, seen, *fine, seed),
+        lambda: fine_profiles(made_for, seen, *fine, seed),
     )
     for knots, count in product(extent.knots, extent.profile_wavelengths):
         table = Settings(knots, 4, (), extent.profile_errors[0], count, nodes=10)
@@ -348,27 +353,23 @@ def noise_share(runs: Sequence[Sequence[Run]], fine: np.ndarray) -> float:
 
 
 def completed(
-    runs: Sequence[Run], fine: np.ndarray, errors: Sequence[float], noise: float
+    runs: Sequence[Run], fine: FineProfiles, errors: Sequence[float], noise: float
 ) -> list[ProfileError]:
     """Error and time of a table's profiles for each error asked for.
 
     Those that were not walked follow from the most accurate run: its mean squared error falls by
-    what `noise_share` says, though no further than to that of noise alone, and its largest error
+    what `noise_share` says, though no further than to that of noise alone, and its largest errors
     by as much; seconds are its own, times the number of paths. All are too large rather than too
     small.
 
     Parameters
     ----------
-    fine : (N, 3) array
-        Widths, in mm.
+    fine : FineProfiles
+        Of the states at which the runs' widths are.
     errors : sequence of float
         Descending; those of the runs come first.
     """
-    shares = [share_errors(run.widths, fine) for run in runs]
-    known = [
-        ProfileError(run.error, run.shared, run.serial, _rms(each), float(each.max()))
-        for run, each in zip(runs, shares, strict=True)
-    ]
+    known = [_profile_error(run, fine) for run in runs]
     last = known[-1]
     for error in errors[len(known) :]:
         fallen = last.rms**2 - noise * (last.error**2 - error**2)
@@ -380,10 +381,19 @@ def completed(
                 last.serial,
                 float(rms),
                 float(last.largest * rms / last.rms),
+                float(last.delta_e * rms / last.rms),
                 walked=False,
             )
         )
     return known
+
+
+def _profile_error(run: Run, fine: FineProfiles) -> ProfileError:
+    shares = share_errors(run.widths, fine.widths)
+    seen = lightness_lost(fine.light, shares)
+    return ProfileError(
+        run.error, run.shared, run.serial, _rms(shares), float(shares.max()), float(seen.max())
+    )
 
 
 def _points(
@@ -414,6 +424,7 @@ def _points(
                 band_rmse=seen.bands,  # noqa: B023
                 profile_rms=profiled.rms if profiled else 0.0,
                 profile_largest=profiled.largest if profiled else 0.0,
+                profile_delta_e=profiled.delta_e if profiled else 0.0,
             )
 
         made = {

@@ -27,6 +27,7 @@ import threading
 import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
@@ -365,22 +366,34 @@ def _only_one(folder: Path) -> Iterator[None]:
         os.close(handle)
 
 
-# Processes
+# Threads and processes
 
 
-def in_processes(count: int) -> Runner:
-    """Runner of up to so many processes of this machine.
+def in_threads(count: int) -> Runner:
+    """Runner of up to so many threads of this process, which spares the start of others.
 
-    One is this process itself, which spares the start of another; a kernel that runs in its main
-    thread then delays Ctrl-C to the kernel's end.
+    They share the interpreter, and a kernel that is running delays Ctrl-C to its end: for work
+    of seconds.
     """
 
     def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
-        if count == 1:
+        pool = ThreadPoolExecutor(count)
+        try:
             with threadpool_limits(1):
-                yield from ((unit, performed(unit, software)) for unit in units)
-        else:
-            yield from _spread(units, software, min(count, len(units)))
+                doing = {pool.submit(performed, each, software): each for each in units}
+                for future in as_completed(doing):
+                    yield doing[future], future.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+    return run
+
+
+def in_processes(count: int) -> Runner:
+    """Runner of up to so many processes of this machine."""
+
+    def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
+        yield from _spread(units, software, min(count, len(units)))
 
     return run
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.adding.melanosomes import encounters
+from hylios.adding.melanosomes import encounters, left_out
 from hylios.adding.optics import Optics, Pattern, figures, is_medium, optics, pattern
 from hylios.adding.scattering import once_per_traversal, response, stacked
 from hylios.adding.surface import fresnel
@@ -198,6 +198,7 @@ def _through_layer(
         return Below(returned, passed * below.lost)
     if is_medium(kinds):
         scattering = _each(layers, "scattering")
+        rate = rate * np.array([left_out(each) for each in layers])
         events = {
             "melanosomes": (rate, [rate * once, rate * twice]),
             "scatterers": (scattering, [scattering]),

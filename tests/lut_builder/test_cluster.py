@@ -18,7 +18,7 @@ import hylios
 from hylios.errors import InputError
 from lut_builder import cluster
 from lut_builder.cluster import on_cluster
-from lut_builder.work import Unit, done, in_processes, performed, software_digest, unpacked
+from lut_builder.work import Unit, done, in_threads, performed, software_digest, unpacked
 
 pytest.importorskip("distributed")
 
@@ -179,7 +179,7 @@ def test_a_worker_is_asked_again_with_each_unit(monkeypatch):
     unit = walks(1)[0]
     local = performed(unit, software_digest())
     assert cluster._performed_here(unit, software_digest()) == local
-    assert unpacked(local).keys() == done([unit], None, "1", in_processes(1))["walk-0"].keys()
+    assert unpacked(local).keys() == done([unit], None, "1", in_threads(1))["walk-0"].keys()
     import distributed
 
     monkeypatch.setattr(distributed, "get_worker", lambda: type("", (), {"address": "tcp://w:1"}))

@@ -17,12 +17,13 @@ from hylios.table import from_stored, read_table, to_stored
 from hylios.tanning import Exposures
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import assembled, build, in_threads, requested
+from lut_builder.build import assembled, build, requested, units
 from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import main
 from lut_builder.pieces import ANGLE, pieces
 from lut_builder.schedule import reached_states, read_schedule
 from lut_builder.settings import PRESETS, Settings
+from lut_builder.work import done, in_threads
 
 SKIN = skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
 SMALL = Settings(knots=(3, 2), colour_wavelengths=5, profile_error=0.02, profile_wavelengths=4)
@@ -139,7 +140,8 @@ def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation):
     settings = replace(FINE, interpolation=interpolation)
     reached = reached_states(SKIN, SUN, 20.0)
     request = requested(SKIN, settings, reached=reached)
-    part, whole = assembled(request, in_threads(request)), build(SKIN, settings)
+    part = assembled(request, done(units(request), None, "", in_threads(2)))
+    whole = build(SKIN, settings)
     count = int(request.needed.sum())
     assert 0 < count < request.needed.size
     assert sum(each.last - each.first for each in pieces(request)) == count

@@ -19,7 +19,6 @@ from lut_builder.build import build
 from lut_builder.check import FINE, settings_of
 from lut_builder.cli import main
 from lut_builder.front import (
-    DELTA_E_PER_SHARE,
     Point,
     best,
     cheapest,
@@ -28,12 +27,15 @@ from lut_builder.front import (
     presets,
     read_points,
     shipped_points,
+    worst,
     write_points,
 )
 from lut_builder.measuring import (
+    FineProfiles,
     Run,
     between_knots,
     component_errors,
+    lightness_lost,
     profile_runs,
     reflectances,
     regions,
@@ -76,9 +78,28 @@ def test_tables_with_and_without_a_profile_have_fronts_of_their_own():
 
 
 def test_the_profile_counts_as_colour_does():
-    one = replace(point(1.0, 0.3), profile_largest=0.4 / DELTA_E_PER_SHARE)
+    one = replace(point(1.0, 0.3), profile_delta_e=0.4)
     assert one.error == pytest.approx(0.5)
-    assert replace(one, profile_largest=0.0).error == 0.3
+    assert replace(one, profile_delta_e=0.0).error == 0.3
+
+
+def test_lightness_lost_is_that_of_cie_1976():
+    """116 (Y^(1/3) - (Y - Y s)^(1/3)) in light, 24389 / 27 Y s in the dark."""
+    light, shares = np.array([0.3, 0.05, 0.005]), np.array([0.01, 0.1, 0.2])
+    lost = lightness_lost(light, shares)
+    cube = 116.0 * (np.cbrt(light) - np.cbrt(light * (1.0 - shares)))
+    assert lost[:2] == pytest.approx(cube[:2], rel=1e-3)
+    assert lost[2] == pytest.approx(24389 / 27 * 0.001, rel=1e-3)
+    assert lightness_lost(np.array(1.0), np.array(1.0)) == pytest.approx(100.0, rel=1e-3)
+
+
+def test_tables_for_several_skins_are_as_slow_and_wrong_as_the_worst():
+    light = [replace(point(1.0, 0.4), shared_seconds=3.0), point(5.0, 0.1)]
+    dark = [replace(point(2.0, 0.3), shared_seconds=1.0), point(4.0, 0.2)]
+    one, other = worst([light, dark])
+    assert (one.shared_seconds, one.serial_seconds, one.delta_e_largest) == (3.0, 2.0, 0.4)
+    assert (other.serial_seconds, other.delta_e_mean, other.delta_e_largest) == (5.0, 0.1, 0.2)
+    assert worst([light]) == light
 
 
 def test_choosing_by_error_and_by_time():
@@ -105,7 +126,7 @@ def test_points_are_read_as_they_were_written(tmp_path):
     path = tmp_path / "front.csv"
     made = Settings((4, 3), 6, profile_error=0.02, profile_wavelengths=4, nodes=14)
     points = [
-        Point(made, 1.25, 0.5, 2.0, 0.125, 0.25, 0.001, 0.01, 0.03),
+        Point(made, 1.25, 0.5, 2.0, 0.125, 0.25, 0.001, 0.01, 0.03, 0.75),
         Point(replace(made, interpolation="linear", profile_error=0.0), 1.0, 0.0, 1.0, 0.2, 0.3, 0),
     ]
     write_points(path, points, ["a note", "another, with a comma"])
@@ -152,19 +173,22 @@ def test_profiles_that_were_not_walked_follow_from_those_that_were():
         return [Run(e, 3.0, 1.0, fine * (1.0 + offset + e * noise)) for e in errors[:2]]
 
     share = noise_share([runs(0.0), runs(0.1), runs(0.0)], fine)
-    noisy = completed(runs(0.0), fine, errors, share)
+    truth = FineProfiles(fine, 0.3 * fine, 0.0 * fine)
+    noisy = completed(runs(0.0), truth, errors, share)
     assert [each.walked for each in noisy] == [True, True, False, False]
     assert noisy[3].rms == pytest.approx(noisy[1].rms / 4.0, rel=0.02)
     assert noisy[3].largest == pytest.approx(noisy[1].largest / 4.0, rel=0.02)
+    assert noisy[3].delta_e == pytest.approx(noisy[1].delta_e / 4.0, rel=0.02)
     assert noisy[2].shared == 12.0 and noisy[3].shared == 48.0 and noisy[3].serial == 1.0
-    off = completed(runs(0.1), fine, (*errors, 5e-4), share)
+    off = completed(runs(0.1), truth, (*errors, 5e-4), share)
     assert off[-1].rms == pytest.approx(share_errors(1.1 * fine, fine).max(), rel=0.05)
 
 
 def test_noise_cannot_fall_by_more_than_there_is():
     """However much noise others have, a good run's error only scales."""
     fine = np.full((9, 3), 1.0)
-    (_, last) = completed([Run(0.02, 3.0, 1.0, 1.01 * fine)], fine, (0.02, 0.01), 100.0)
+    truth = FineProfiles(fine, 0.3 * fine, 0.0 * fine)
+    (_, last) = completed([Run(0.02, 3.0, 1.0, 1.01 * fine)], truth, (0.02, 0.01), 100.0)
     assert last.rms == pytest.approx(share_errors(1.01 * fine, fine).max() / 2.0)
 
 
@@ -266,13 +290,14 @@ def test_what_was_measured_is_in_order(quick):
 @pytest.mark.slow
 def test_a_trade_is_written_and_can_be_chosen_from(tmp_path, capsys):
     picture = tmp_path / "t.png"
-    asked = ["trade", "--specimen", "S3", "--quick", "-o", str(picture)]
+    asked = ["trade", "--specimen", "S3", "--also", "VI", "--quick", "-o", str(picture)]
     assert main([*asked, "--max-delta-e", "50"]) == 0
     assert "chosen: knots" in capsys.readouterr().out
     assert imread(picture).shape[2] in (3, 4)
     assert front(read_points(tmp_path / "t.csv")) == read_points(tmp_path / "t.csv")
     parts = (tmp_path / "t_parts.csv").read_text()
-    assert "skin: S3" in parts and "components, PPCA" in parts
+    assert "skin: S3, pigmentation intermediate; VI, pigmentation" in parts
+    assert "components, PPCA" in parts
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+import traceback
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -22,6 +23,7 @@ from lut_builder.work import (
     Unit,
     done,
     in_processes,
+    in_threads,
     performed,
     software_digest,
     unfinished,
@@ -65,7 +67,7 @@ def in_folder(tmp_path, units=UNITS, software="1"):
 
 @pytest.fixture
 def undisturbed():
-    return done(UNITS, None, "1", in_processes(1))
+    return done(UNITS, None, "1", in_threads(1))
 
 
 def test_results_are_those_of_the_functions_in_the_order_of_the_units(undisturbed):
@@ -77,9 +79,9 @@ def test_results_are_those_of_the_functions_in_the_order_of_the_units(undisturbe
             assert np.allclose(undisturbed[name][each], array, rtol=1e-12)
 
 
-@pytest.mark.parametrize("processes", [2, 3])
-def test_processes_give_the_same_bytes(undisturbed, processes):
-    assert same(done(UNITS, None, "1", in_processes(processes)), undisturbed)
+@pytest.mark.parametrize("runner", [in_threads(2), in_processes(1), in_processes(3)])
+def test_threads_and_processes_give_the_same_bytes(undisturbed, runner):
+    assert same(done(UNITS, None, "1", runner), undisturbed)
 
 
 def test_arrays_of_every_kind_and_shape_come_back():
@@ -123,7 +125,7 @@ def test_a_size_that_is_none_is_refused(size):
 
 def test_two_units_of_one_name_are_refused():
     with pytest.raises(ValueError, match="same name"):
-        done([Unit("a", walk, (1, 2)), Unit("A", walk, (2, 2))], None, "1", in_processes(1))
+        done([Unit("a", walk, (1, 2)), Unit("A", walk, (2, 2))], None, "1", in_threads(1))
 
 
 # What a unit is known by
@@ -316,27 +318,28 @@ def test_a_damaged_unit_is_done_again(tmp_path, undisturbed):
 
 def test_progress_tells_count_and_time_left_on_standard_error(tmp_path, capsys):
     in_folder(tmp_path, UNITS[:3])
-    done(UNITS, tmp_path, "1", in_processes(1), "walks")
+    done(UNITS, tmp_path, "1", in_threads(1), "walks")
     captured = capsys.readouterr()
     assert captured.out == ""
     assert "walks, 3 of 8" in captured.err
     assert "walks, 8 of 8 100%" in captured.err
-    done(UNITS, None, "1", in_processes(1))
+    done(UNITS, None, "1", in_threads(1))
     assert capsys.readouterr().err == ""
 
 
-# Processes
+# Threads and processes
 
 
-@pytest.mark.parametrize("processes", [1, 2])
-def test_an_exception_of_a_unit_is_raised(processes):
+@pytest.mark.parametrize("runner", [in_threads(2), in_processes(2)])
+def test_an_exception_of_a_unit_is_raised(runner):
     units = [Unit("a", fail, ("InputError",)), Unit("b", walk, (1, 2))]
     with pytest.raises(InputError, match="^it is 7.$"):
-        done(units, None, "1", in_processes(processes))
+        done(units, None, "1", runner)
     units = [Unit("a", fail, ("ZeroDivisionError",)), Unit("b", walk, (1, 2))]
     with pytest.raises(ZeroDivisionError) as raised:
-        done(units, None, "1", in_processes(processes))
-    assert processes == 1 or "in fail" in "".join(raised.value.__notes__)
+        done(units, None, "1", runner)
+    told = [*getattr(raised.value, "__notes__", []), *traceback.format_tb(raised.tb)]
+    assert "in fail" in "".join(told)
 
 
 def test_a_process_that_dies_is_one_sentence_and_what_was_done_stays(tmp_path):
@@ -470,7 +473,7 @@ def left_behind(tmp_path, *, units=3):
     target = tmp_path / "t.bin"
     folder = tmp_path / "t.bin.unfinished"
     folder.mkdir()
-    done(walks(30)[:units], folder, software_digest(), in_processes(1))
+    done(walks(30)[:units], folder, software_digest(), in_threads(1))
     (folder / ".half.unit").write_bytes(b"half")
     return target, folder
 
@@ -581,7 +584,7 @@ def test_no_space_for_a_unit_keeps_those_before(tmp_path, monkeypatch):
 
     monkeypatch.setattr(Path, "write_bytes", write)
     with pytest.raises(InputError, match="cannot be written: No space left on device.$"):
-        done(UNITS, tmp_path, "1", in_processes(1))
+        done(UNITS, tmp_path, "1", in_threads(1))
     monkeypatch.undo()
     assert len(os.listdir(tmp_path)) == 4
     assert len(in_folder(tmp_path)[0]) == len(UNITS) - 4

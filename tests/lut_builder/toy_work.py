@@ -11,7 +11,7 @@ import numpy as np
 from hylios.errors import InputError
 from hylios.shell import run
 from lut_builder.cluster import on_cluster
-from lut_builder.work import Unit, done, in_processes, software_digest, unfinished
+from lut_builder.work import Unit, done, in_processes, in_threads, software_digest, unfinished
 
 
 def walk(seed, length, pause=0.0):
@@ -36,9 +36,13 @@ def walks(count, pause=0.0):
     ]
 
 
+def local_runner(processes):
+    return in_threads(1) if processes == 1 else in_processes(processes)
+
+
 def make(asked):
     with unfinished(asked.target, (".bin",), resume=asked.resume, force=asked.force) as folder:
-        runner = on_cluster(asked.dask) if asked.dask else in_processes(asked.processes)
+        runner = on_cluster(asked.dask) if asked.dask else local_runner(asked.processes)
         found = done(walks(asked.count, asked.pause), folder, software_digest(), runner, "walks")
         content = b"".join(array.tobytes() for each in found.values() for array in each.values())
         (folder / asked.target.name).write_bytes(content)

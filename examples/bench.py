@@ -22,9 +22,6 @@ REPEATS = 5
 RAYS = {False: 20_000, True: 1000}
 """Per wavelength, of light as the thesis prints it (True) and in exact equivalents."""
 
-TABLES = (("preview", "III"), ("preview", "VI"), ("standard", "III"))
-"""Presets and skin types; standard tables of dark skin take longer, and reference ones far more."""
-
 VISIBLE = np.arange(400.0, 701.0, 5.0)
 THESIS_RAYS_PER_SECOND = VISIBLE.size * 1e5 / 30.0 / 12.0
 """61 wavelengths of 1e5 rays in about 30 s on 12 cores (section 6.1.4)."""
@@ -106,7 +103,7 @@ def main() -> None:
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
     report_tanning()
-    bench_tables.main([])
+    bench_tables.main()
 
 
 if __name__ == "__main__":

@@ -87,7 +87,10 @@ def _parser() -> argparse.ArgumentParser:
         "--bands", help="what to hold: visible and wavelengths in nm, such as visible,365,1100"
     )
     building.add_argument(
-        "--profile-error", type=float, help="standard error of the cumulative diffusion profile"
+        "--profile-error",
+        type=float,
+        help="standard error of light skin's cumulative diffusion profile; dark skin's is larger, "
+        "as it shows less",
     )
     building.add_argument(
         "--no-profile", action="store_true", help="no diffusion profile: for renders without"

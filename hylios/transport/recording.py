@@ -2,7 +2,7 @@
 
 A ray's way through a stack is drawn from a density whose logarithm is linear in a few sums over
 the way: lengths, and how often what was met. With these kept, the way can serve for other stacks
-of the same geometry (`hylios.transport.reuse`).
+of the same geometry (`hylios.transport.paths`).
 
 Two things differ from `equivalent`. Whether light leaves a melanosome whose place was drawn is
 decided by the mean over all places, as for those whose place was not; and places of melanosomes

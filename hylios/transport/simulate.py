@@ -362,3 +362,16 @@ def in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
         finally:
             for each in running:
                 each.cancel()
+
+
+def in_order(function: Callable, tasks: Iterable, threads: int | None):
+    """Results of tasks in their order, whichever ends first, so that sums are the same."""
+    waiting, due = {}, 0
+    numbered = in_threads(
+        lambda task: (task[0], function(task[1])), iter(enumerate(tasks)), thread_count(threads)
+    )
+    for number, result in numbered:
+        waiting[number] = result
+        while due in waiting:
+            yield waiting.pop(due)
+            due += 1

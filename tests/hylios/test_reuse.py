@@ -16,6 +16,7 @@ from hylios.specimen import SPECIMENS, tanned
 from hylios.tissue import Layer, Stack, readings
 from hylios.transport import reuse
 from hylios.transport.counting import skin_stack
+from hylios.transport.paths import effective_sample_size, ready, trace_paths, weights
 from hylios.transport.recording import (
     FIBRE_LENGTH,
     FIBRES_MET,
@@ -24,15 +25,7 @@ from hylios.transport.recording import (
     TRIED,
     TRIED_LENGTH,
 )
-from hylios.transport.reuse import (
-    allocated,
-    effective_sample_size,
-    needed_samples,
-    profiles,
-    skin_profiles,
-    trace_paths,
-    weights,
-)
+from hylios.transport.reuse import allocated, needed_samples, profiles, skin_profiles
 from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, count, trace
 from hylios.transport.walk import SUBSURFACE
 
@@ -158,7 +151,7 @@ def test_weighted_paths_are_another_stacks(name, wavelength, number, factors):
         wanted, held = other.layers[number].survival, layers.layers[number]
         part = np.log(wanted) / np.log(held.survival)
         other = changed(layers, number, melanin_absorption=part)
-        other = reuse._ready(changed(other, number, survival=-1.0 / held.survival))
+        other = ready(changed(other, number, survival=-1.0 / held.survival))
     paths = trace_paths(layers, rays=40_000, angle=8.0, key=(6,), threads=2)
     assert_weights_give(paths, other, 40_000, (7,))
 

@@ -21,8 +21,10 @@ lint: environment
 	$(BIN)/ruff check .
 	$(BIN)/basedpyright --pythonpath $(BIN)/python
 
+# A file's tests stay in one process: they share what is made once for the file. Each process
+# compiles, tabulates and imports Blender for itself, so many bring little.
 test: lint
-	$(BIN)/python -m pytest -m "not slow"
+	$(BIN)/python -m pytest -m "not slow" -n logical --maxprocesses 4 --dist loadfile
 
 test-all: lint
 	$(BIN)/python -m pytest

@@ -28,7 +28,7 @@ import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from multiprocessing import get_context, parent_process, resource_tracker
@@ -146,14 +146,19 @@ def _bar(
         yield lambda unit: None
         return
     before = sum(unit.size for unit in units if unit.name in found)
-    with tqdm(
-        total=sum(unit.size for unit in units),
-        initial=before,
-        desc=f"{what}, {len(found)} of {len(units)}",
-        bar_format="{desc} {percentage:3.0f}%|{bar}| [{elapsed}<{remaining}]",
-        smoothing=0.0,
-        mininterval=0.5,
-    ) as bar:
+    with ExitStack() as stack:
+        # Ctrl-C between the bar's first sign and its `with` would leave its line without an end.
+        with _interrupts_held():
+            bar = stack.enter_context(
+                tqdm(
+                    total=sum(unit.size for unit in units),
+                    initial=before,
+                    desc=f"{what}, {len(found)} of {len(units)}",
+                    bar_format="{desc} {percentage:3.0f}%|{bar}| [{elapsed}<{remaining}]",
+                    smoothing=0.0,
+                    mininterval=0.5,
+                )
+            )
 
         def tell(unit: Unit) -> None:
             bar.set_description_str(f"{what}, {len(found)} of {len(units)}", refresh=False)
@@ -404,6 +409,8 @@ def _spread(
     waiting = deque(units)
     context = get_context("spawn")
     processes, working = [], {}
+    # It lets Ctrl-C through when it starts, and so has to start before they are held.
+    resource_tracker.ensure_running()
     try:
         with _interrupts_held():
             for _ in range(count):
@@ -493,8 +500,6 @@ def _interrupts_held() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    # It lets Ctrl-C through when it starts, and so has to start before.
-    resource_tracker.ensure_running()
     came = []
     former = signal.signal(signal.SIGINT, lambda *_: came.append(True))
     block = getattr(signal, "pthread_sigmask", None)

@@ -66,6 +66,7 @@ def test_a_changed_skin_has_its_colours_in_a_second_in_blender(tmp_path):
         env={name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"},
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert min(map(float, done.stdout.split())) < 1.0
+    seconds = done.stdout.splitlines()[-3:]  # Blender may say something before
+    assert min(map(float, seconds)) < 1.0
     stored = table.planes["total_colour"].reshape(-1, 3)[chosen].astype(float)
     assert colour.difference(stored, np.load(tmp_path / "colours.npy")).mean() < 0.5

@@ -1,11 +1,11 @@
 """Measured skin that the figures are set beside: people from a file, a BRDF as fitted lobes."""
 
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 
+from examples.figures import __main__ as program
 from examples.figures.measured_brdf import forehead
 from examples.figures.measured_people import read_people
 from hylios.errors import InputError
@@ -59,15 +59,11 @@ def test_what_is_no_table_of_people_is_refused(tmp_path, changed, message):
         read_people(written(tmp_path, GOOD.replace(*changed)))
 
 
-def test_a_missing_file_of_people_ends_in_a_sentence(tmp_path):
+def test_a_missing_file_of_people_ends_in_a_sentence(tmp_path, monkeypatch, capsys):
     missing = tmp_path / "none.csv"
-    ended = subprocess.run(
-        [sys.executable, "-m", "examples.figures", "6.6", "--people", str(missing)],
-        capture_output=True,
-        text=True,
-    )
-    assert ended.returncode == 2
-    assert ended.stderr.startswith(f"error: the people in {missing} cannot be read: ")
+    monkeypatch.setattr(sys, "argv", ["figures", "6.6", "--people", str(missing)])
+    assert program.main() == 2
+    assert capsys.readouterr().err.startswith(f"error: the people in {missing} cannot be read: ")
 
 
 ANGLES = np.linspace(0.0, 89.0, 90)

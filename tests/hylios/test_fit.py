@@ -68,8 +68,7 @@ def test_a_colour_is_met_and_leaves_the_rest_open():
 
 
 def test_every_group_stays_within_physiology():
-    bright = np.full(VISIBLE.size, 0.95)
-    found = fit_spectrum(S3, VISIBLE, bright)
+    found = fit_spectrum(S3, VISIBLE[::2], np.full(8, 0.95))
     for each in parameters():
         low, high = PHYSIOLOGY[each.name].low, PHYSIOLOGY[each.name].high
         value = getattr(found.specimen, each.name)

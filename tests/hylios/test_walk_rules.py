@@ -109,10 +109,13 @@ def test_a_complex_holds_the_melanosomes_of_its_chord(counting):
     assert_share(transmitted(traced), np.exp(-8.0 * 0.1 * absorbed))
 
 
-@pytest.mark.parametrize("as_printed", [False, True])
-def test_melanosomes_do_not_overlap_or_leave_their_layer(as_printed):
-    """Spheres of 1 um in 20 um, met every 2 um: the same rules in numpy, ray by ray."""
-    radius, depth, rate, absorption, rays = 0.5e-4, 20e-4, 5000.0, 3000.0, 20_000
+CROWDED = melanosomes(thickness=20e-4, encounter=5000.0, melanin_absorption=3000.0)
+
+
+@pytest.fixture(scope="module")
+def passed_the_crowd():
+    """Share of each of 20,000 rays that gets through the melanosomes of `CROWDED`, in numpy."""
+    radius, depth, rate, rays = CROWDED.semi_minor, CROWDED.thickness, CROWDED.encounter, 20_000
     random = np.random.default_rng(21)
     passed = np.ones(rays)
     for ray in range(rays):
@@ -134,13 +137,21 @@ def test_melanosomes_do_not_overlap_or_leave_their_layer(as_printed):
             apart = before is None or np.linalg.norm(centre - before) >= 2.0 * radius
             if inside and apart:
                 place, before = ahead, centre
-                passed[ray] *= np.exp(-2.0 * absorption * np.sqrt(radius**2 - across**2))
-    layer = melanosomes(thickness=depth, encounter=rate, melanin_absorption=absorption)
-    found = transmitted(trace(Stack((layer,)), rays=RAYS, as_printed=as_printed))
-    error = np.hypot(passed.std() / np.sqrt(rays), np.sqrt(found * (1.0 - found) / RAYS))
+                chord = 2.0 * np.sqrt(radius**2 - across**2)
+                passed[ray] *= np.exp(-CROWDED.melanin_absorption * chord)
+    return passed
+
+
+@pytest.mark.parametrize("as_printed", [False, True])
+def test_melanosomes_do_not_overlap_or_leave_their_layer(as_printed, passed_the_crowd):
+    """Spheres of 1 um in 20 um, met every 2 um: the same rules in numpy, ray by ray."""
+    passed = passed_the_crowd
+    found = transmitted(trace(Stack((CROWDED,)), rays=RAYS, as_printed=as_printed))
+    error = np.hypot(passed.std() / np.sqrt(passed.size), np.sqrt(found * (1.0 - found) / RAYS))
     assert abs(found - passed.mean()) < 4.0 * error
     clear = 2.0 * (1.0 - 1.3 * np.exp(-0.3)) / 0.3**2  # survival of one
-    assert found - np.exp(-rate * depth * (1.0 - clear)) > 20.0 * error
+    unhindered = np.exp(-CROWDED.encounter * CROWDED.thickness * (1.0 - clear))
+    assert found - unhindered > 20.0 * error
 
 
 def test_melanosomes_turn_light_by_algorithm_1():
@@ -208,6 +219,20 @@ def test_a_rough_surface_lets_light_out_as_an_independent_draw_says(cosine, roug
         assert abs(found.mean() - expected.mean()) < 4.0 * error
 
 
+BROAD = np.concatenate(
+    [np.arange(250.0, 400.0, 30.0), np.arange(400.0, 700.0, 40.0), np.arange(700, 1401, 100.0)]
+)
+
+
+def total(**arguments):
+    return spectrum(SPECIMENS["S3"], BROAD, rays=30_000, **arguments).total
+
+
+@pytest.fixture(scope="module")
+def usual_total():
+    return total()
+
+
 @pytest.mark.parametrize(
     ("name", "choice", "expected"),
     [
@@ -220,16 +245,14 @@ def test_a_rough_surface_lets_light_out_as_an_independent_draw_says(cosine, roug
         ("floor", "mirrored", (0.00, 0.02, 0.04)),
     ],
 )
-def test_other_readings_move_s3_as_an_independent_implementation_found(name, choice, expected):
+def test_other_readings_move_s3_as_an_independent_implementation_found(
+    name, choice, expected, usual_total
+):
     """RMSE in the UV, the visible and 700 to 1400 nm, printed there to two places: within .012 or
     8 %, for its rounding, another choice of wavelengths and the noise of both."""
-    wavelengths = np.concatenate(
-        [np.arange(250.0, 400.0, 30.0), np.arange(400.0, 700.0, 40.0), np.arange(700, 1401, 100.0)]
-    )
-    regions = (wavelengths < 400, (wavelengths >= 400) & (wavelengths < 700), wavelengths >= 700)
-    usual = spectrum(SPECIMENS["S3"], wavelengths, rays=30_000).total
-    other = spectrum(SPECIMENS["S3"], wavelengths, rays=30_000, chosen={name: choice}).total
-    found = [np.sqrt(np.mean((other - usual)[region] ** 2)) for region in regions]
+    moved = total(chosen={name: choice}) - usual_total
+    regions = (BROAD < 400, (BROAD >= 400) & (BROAD < 700), BROAD >= 700)
+    found = [np.sqrt(np.mean(moved[region] ** 2)) for region in regions]
     assert np.allclose(found, expected, atol=0.012, rtol=0.08)
 
 

@@ -37,6 +37,12 @@ def small():
     return build(SKIN, SMALL)
 
 
+@pytest.fixture(scope="module")
+def whole():
+    """Every knot, of which a schedule's tables compute some."""
+    return build(SKIN, FINE)
+
+
 @pytest.mark.parametrize("place", [(0, 0), (2, 1)])
 def test_an_entry_is_the_solution_of_its_state(small, place):
     """The same solver's, alone: colours, bands and what the surface reflects."""
@@ -135,13 +141,13 @@ def test_settings_survive_the_header(small):
 
 
 @pytest.mark.parametrize("interpolation", ["linear", "pchip"])
-def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation):
+def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation, whole):
     """Bit for bit at all states that it leads to, though some knots were not computed."""
     settings = replace(FINE, interpolation=interpolation)
     reached = reached_states(SKIN, SUN, 20.0)
     request = requested(SKIN, settings, reached=reached)
     part = assembled(request, done(units(request), None, "", in_threads(2)))
-    whole = build(SKIN, settings)
+    whole = replace(whole, interpolation=interpolation)
     count = int(request.needed.sum())
     assert 0 < count < request.needed.size
     assert sum(each.last - each.first for each in pieces(request)) == count
@@ -157,13 +163,13 @@ def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation):
     assert np.all(np.abs(part.plane("computed", states) - 1.0) < 1e-12)
 
 
-def test_a_schedule_s_knots_are_no_more_than_it_needs():
+def test_a_schedule_s_knots_are_no_more_than_it_needs(whole):
     """Without one of the linear table's knots, some lookup where the sun leads is another."""
     settings = replace(FINE, interpolation="linear")
     reached = reached_states(SKIN, SUN, 20.0)
     request = requested(SKIN, settings, reached=reached)
     random = np.random.default_rng(1)
-    whole = build(SKIN, settings)
+    whole = replace(whole, interpolation="linear")
     expected = whole.plane("total_colour", reached)
     for place in np.argwhere(request.needed)[::12]:
         other = whole.planes["total_colour"].copy()

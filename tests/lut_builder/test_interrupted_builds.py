@@ -1,14 +1,14 @@
 """A build that is killed again and again makes the same file as one that is left alone."""
 
-import subprocess
 import sys
 
 import pytest
-from interruptions import environment, killed_and_resumed
+from interruptions import killed_and_resumed
 
 from lut_builder.cli import main
 
 WORK = "--skin III --knots 3 --bands visible,365 --profile-error 0.1".split()
+SHORT_WORK = "--knots 1 --wavelengths 4 --bands visible --no-profile".split()
 
 
 def command(target, *more):
@@ -16,31 +16,37 @@ def command(target, *more):
     return [*build, *more, "-o", str(target)]
 
 
-def killed(tmp_path, kills):
-    undisturbed, target = tmp_path / "undisturbed.exr", tmp_path / "killed.exr"
-    subprocess.run(command(undisturbed), check=True, capture_output=True, env=environment())
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Content of the file, made in this process alone."""
+    path = tmp_path_factory.mktemp("undisturbed") / "t.exr"
+    assert main(["build", *WORK, "--threads", "1", "-o", str(path)]) == 0
+    return path.read_bytes()
+
+
+def killed(tmp_path, kills, undisturbed):
+    target = tmp_path / "killed.exr"
     done = killed_and_resumed(command(target, "--resume"), target, kills, seed=4, pause=0.2)
-    assert target.read_bytes() == undisturbed.read_bytes()
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["killed.exr", "undisturbed.exr"]
+    assert target.read_bytes() == undisturbed
+    assert [path.name for path in tmp_path.iterdir()] == ["killed.exr"]
     return done
 
 
-def test_killed_twice_and_resumed(tmp_path):
-    assert killed(tmp_path, 2) == 2
+def test_killed_twice_and_resumed(tmp_path, undisturbed):
+    assert killed(tmp_path, 2, undisturbed) == 2
 
 
 @pytest.mark.slow
-def test_killed_at_20_random_moments_and_resumed(tmp_path):
-    assert killed(tmp_path, 20) > 3
+def test_killed_at_20_random_moments_and_resumed(tmp_path, undisturbed):
+    assert killed(tmp_path, 20, undisturbed) > 3
 
 
-def test_threads_do_not_change_the_file(tmp_path, monkeypatch):
-    """In this process, and in two others."""
+def test_threads_do_not_change_the_file(tmp_path, monkeypatch, undisturbed):
+    """In two other processes."""
     monkeypatch.setattr("lut_builder.cli.SHORT", 0.0)
-    for threads in ("1", "2"):
-        path = tmp_path / f"{threads}.exr"
-        assert main(["build", *WORK, "--threads", threads, "-o", str(path)]) == 0
-    assert (tmp_path / "1.exr").read_bytes() == (tmp_path / "2.exr").read_bytes()
+    path = tmp_path / "t.exr"
+    assert main(["build", *WORK, "--threads", "2", "-o", str(path)]) == 0
+    assert path.read_bytes() == undisturbed
 
 
 def test_unfinished_work_is_told(tmp_path, capsys):
@@ -48,7 +54,7 @@ def test_unfinished_work_is_told(tmp_path, capsys):
     folder = tmp_path / "t.exr.unfinished"
     folder.mkdir()
     (folder / "colours-0.unit").write_bytes(b"half")
-    assert main(["build", *WORK, "-o", str(target)]) == 2
+    assert main(["build", *SHORT_WORK, "-o", str(target)]) == 2
     assert "give --resume to go on with it, or --force to begin anew" in capsys.readouterr().err
-    assert main(["build", *WORK, "-o", str(target), "--force"]) == 0
+    assert main(["build", *SHORT_WORK, "-o", str(target), "--force"]) == 0
     assert target.exists() and not folder.exists()

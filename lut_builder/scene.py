@@ -9,19 +9,19 @@ finds what lies off them too.
 import math
 
 import numpy as np
-from scipy.sparse import csr_array, eye_array, kron, vstack
+from scipy.sparse import csr_array, dia_array, kron, vstack
 from scipy.sparse.linalg import spsolve
 
 from hylios.table import StateAxes
 from hylios.table.interpolation import interpolate
 
 NEAR = 0.01
-"""In the logarithm: states no farther apart count as one. It is .09 CIEDE2000 at most."""
+"""In the logarithm: states no farther apart count as one. Along an axis it is .09 CIEDE2000 at
+most."""
 
-LONGER, LEAST = 0.25, 0.125
-"""Of the whole table's step on an axis: how much longer a scene's may be for one knot less, and how
-far off its axes a scene's states may lie from the sheet for one axis less. So the states at the
-knots are a quarter to a half, and the table no farther from the model (`docs/choosing.md`)."""
+LONGER = 0.25
+"""Of the whole table's step on an axis: how much longer a scene's may be for one knot less. A table
+is as near the model with a quarter to a half of the states (`docs/choosing.md`)."""
 
 BENDING, RIDGE = 1e-2, 1e-6
 """Weights of the sheet's bends, and of its distance from the plane of the axes, per knot, against
@@ -32,22 +32,22 @@ def laid_over(whole: StateAxes, reached: np.ndarray) -> tuple[StateAxes, np.ndar
     """Axes over the states (N, 4) that a scene reaches, and the states (*shape, 4) at the knots.
 
     The axes are the first of the whole table's, as many as leave the scene's states near the
-    sheet, and their steps no longer than the whole table's. The untanned skin is a knot.
+    sheet, and their steps about as long. The untanned skin is a knot.
     """
     basis = _all_directions(whole)
     coordinates = np.log(reached / whole.untanned) @ basis
     ends = coordinates.min(axis=0), coordinates.max(axis=0)
     places = coordinates[_apart(coordinates)]
     own = sorted(whole.knots, key=lambda knots: len(knots) == 1)  # as `_all_directions`
-    steps = np.array([np.diff(knots).max() for knots in own if len(knots) > 1])
+    several = sum(len(knots) > 1 for knots in own)
     knots, off = (np.zeros(1),), np.zeros((1, 3))
-    for count in range(1, max(len(steps), 1) + 1):
+    for count in range(1, max(several, 1) + 1):
         knots = tuple(
             _knots_over(each, -low, high)
             for each, low, high in zip(own[:count], *ends, strict=False)
         )
         off, left = _sheet(knots, places[:, :count], places[:, count:])
-        if np.all(left[: len(steps) - count] <= LEAST * steps[count:]):
+        if np.all(left[: several - count] <= NEAR):
             break
     axes = StateAxes(whole.untanned, basis[:, : len(knots)], knots)
     off = off @ basis[:, len(knots) :].T
@@ -85,17 +85,23 @@ def _apart(places: np.ndarray) -> np.ndarray:
 
 
 def _knots_over(own: np.ndarray, below: float, above: float) -> np.ndarray:
-    """Knots at 0 and evenly so far below and above, at steps no longer than an axis's own."""
+    """Knots at 0 and evenly so far below and above, at about an axis's own steps.
+
+    Three knots at least where the axis has them, without which PCHIP is but linear.
+    """
+    sides = _intervals(-own[own < 0.0], below), _intervals(own[own > 0.0], above)
+    if sum(sides) == 1 and len(own) > 2:
+        sides = 2 * sides[0], 2 * sides[1]
     return np.concatenate(
-        [-_side(-own[own < 0.0], below)[::-1], [0.0], _side(own[own > 0.0], above)]
+        [np.linspace(-below, 0.0, sides[0] + 1)[:-1], np.linspace(0.0, above, sides[1] + 1)]
     )
 
 
-def _side(own: np.ndarray, reach: float) -> np.ndarray:
+def _intervals(own: np.ndarray, reach: float) -> int:
+    """How many steps there are from 0 to where a scene reaches, beside an axis's own knots."""
     if own.size == 0 or reach < NEAR:
-        return np.zeros(0)
-    count = max(int(np.ceil(reach * own.size / np.abs(own).max() - LONGER)), 1)
-    return np.linspace(0.0, reach, count + 1)[1:]
+        return 0
+    return max(int(np.ceil(reach * own.size / own.max() - LONGER)), 1)
 
 
 def _sheet(
@@ -110,7 +116,7 @@ def _sheet(
     bends = _bends(knots)
     count, size = len(places), math.prod(len(own) for own in knots)
     normal = weights.T @ weights + count / size * (
-        BENDING * (bends.T @ bends) + RIDGE * eye_array(size)
+        BENDING * (bends.T @ bends) + RIDGE * _identity(size)
     )
     free = np.flatnonzero(np.any(np.stack(np.meshgrid(*knots, indexing="ij")), axis=0))
     found = np.zeros((size, off.shape[1]))
@@ -147,5 +153,9 @@ def _bends(knots: tuple[np.ndarray, ...]) -> csr_array:
         bend[inner, inner], bend[inner, inner + 2] = share, 1.0 - share
         bend[inner, inner + 1] = -1.0
         before, after = math.prod(shape[:axis]), math.prod(shape[axis + 1 :])
-        parts.append(kron(kron(eye_array(before), csr_array(bend)), eye_array(after)))
+        parts.append(kron(kron(_identity(before), csr_array(bend)), _identity(after)))
     return csr_array(vstack(parts))
+
+
+def _identity(size: int) -> dia_array:
+    return dia_array((np.ones((1, size)), [0]), shape=(size, size))

@@ -17,8 +17,7 @@ COLUMNS = 512
 HOURS_PER_ROW = 6.0
 ROWS_LIMIT = 1024
 
-COLOUR, WIDTH, COMPUTED = "subsurface_colour", "profile_width", "computed"
-COMPUTED_TOLERANCE = 1e-6
+COLOUR, WIDTH = "subsurface_colour", "profile_width"
 
 
 @dataclass(frozen=True)
@@ -80,13 +79,14 @@ def tan(
         mmd=mmd,
         med=med,
     )
-    planes = [name for name in (COLOUR, WIDTH, COMPUTED) if name in table.planes]
-    appearance = table.lookup(np.moveaxis(states, 1, 0), planes)
-    if COMPUTED in appearance and appearance[COMPUTED].min() < 1.0 - COMPUTED_TOLERANCE:
+    states = np.moveaxis(states, 1, 0)
+    if not table.holds(states).all():
         raise InputError(
             "the table was built for another schedule of sun, which does not lead where this one "
             "does; build it with this schedule (Export Schedule) or with none."
         )
+    planes = [name for name in (COLOUR, WIDTH) if name in table.planes]
+    appearance = table.lookup(states, planes)
     width = appearance.get(WIDTH)
     return Tan(
         colour=appearance[COLOUR].astype(np.float32),

@@ -43,21 +43,36 @@ def requested(
     known, chosen
         Spectral figures and readings, the project's own by default.
     reached : (N, 4) array, optional
-        Tanning states that a scene leads through; knots that they do not need are left out.
+        Tanning states that a scene leads through, for a table of these alone.
 
     Raises
     ------
     InputError
         If the skin has a layer without melanin (`lut_builder.states.untanned_state`).
     """
-    axes = choose_axes(made_for, settings.knots)
-    needed = np.ones(axes.shape, bool)
+    whole = axes = choose_axes(made_for, settings.knots)
+    states, needed, within = axes.knot_states(), np.ones(axes.shape, bool), None
     if reached is not None:
+        from lut_builder.scene import farthest, laid_over  # scipy
+
+        axes, states = laid_over(whole, reached)
         needed = needed_knots(axes, reached, settings.interpolation)
+        within = farthest(axes, states, reached, settings.interpolation)
     # Plain dictionaries, for requests to travel to other processes.
     own_figures = None if known is None else dict(known)
     own_readings = None if chosen is None else dict(chosen)
-    return Request(made_for, settings, axes, needed, seed, own_figures, own_readings)
+    return Request(
+        made_for,
+        settings,
+        axes,
+        states,
+        needed,
+        whole=int(np.prod(whole.shape)),
+        within=within,
+        seed=seed,
+        known=own_figures,
+        chosen=own_readings,
+    )
 
 
 def units(request: Request) -> list[Unit]:
@@ -90,10 +105,10 @@ def assembled(request: Request, results: Results) -> SkinTable:
     planes = _reflectance_planes(settings, parts, results)
     if settings.has_profile:
         planes.update(_profile_planes(settings, parts, results))
-    if not request.needed.all():
+    if request.within is not None:
+        planes["state"] = _state_plane(request, request.within)
         nearest = _nearest_computed(request.needed)
         planes = {name: plane[nearest] for name, plane in planes.items()}
-        planes["computed"] = request.needed[..., None].astype(float)
     cut = sum(request.skin.overfull(state[:3], state[3]) for state in request.states)
     return SkinTable(
         axes=request.axes,
@@ -105,6 +120,12 @@ def assembled(request: Request, results: Results) -> SkinTable:
         },
         interpolation=settings.interpolation,
     )
+
+
+def _state_plane(request: Request, within: float) -> np.ndarray:
+    """The states that were computed, and how near to them a table for one scene holds, (N, 5)."""
+    ratios = np.log(request.states / request.axes.untanned)
+    return np.concatenate([ratios, np.full((len(ratios), 1), within)], axis=1)
 
 
 def _nearest_computed(needed: np.ndarray) -> np.ndarray:
@@ -199,6 +220,7 @@ def provenance(request: Request) -> dict:
         "angle_deg": ANGLE,
         "seed": request.seed,
         "states_computed": int(request.needed.sum()),
+        "states_for_any_sun": request.whole,
         "colour": "linear Rec.709, D65, CIE 1931 2 degree",
         "profile_width_unit": "mm",
         "estimated_figures": estimates_within(known, FIGURES, wavelengths(settings)),

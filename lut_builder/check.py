@@ -214,14 +214,12 @@ def _walked(
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
-    """Those of the states (N, 4) that are no knot of the table and were not left out of it."""
+    """Those of the states (N, 4) that are no knot of the table and that it holds."""
     knots = np.log(table.axes.knot_states().reshape(-1, 4))
     apart = np.full(len(states), np.inf)
     for knot in knots:
         apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))
-    held = apart > 1e-6
-    if "computed" in table.planes:
-        held &= table.plane("computed", states)[:, 0] > 1.0 - 1e-6
-    if not held.any():
+    between = (apart > 1e-6) & table.holds(states)
+    if not between.any():
         raise InputError("the table has no state between its knots that could be checked.")
-    return states[held]
+    return states[between]

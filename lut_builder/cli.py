@@ -254,11 +254,12 @@ def _build(asked: argparse.Namespace) -> None:
     request = requested(
         made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
     )
-    wanted, knots = len(request.states), request.needed.size
+    wanted, whole = len(request.states), request.whole
     work = units(request)
     with unfinished(asked.output, (".exr",), resume=asked.resume, force=asked.force) as folder:
         if reached is not None:
-            print(f"the scene needs {wanted} of {knots} states: {1.0 - wanted / knots:.0%} saved")
+            saved = 1.0 - wanted / whole
+            print(f"the scene needs {wanted} states, any sun {whole}: {saved:.0%} saved")
         runner = _runner(asked, sum(each.size for each in work))
         found = done(work, folder, software_digest(), runner, f"table of {wanted} states")
         table = assembled(request, found)

@@ -40,8 +40,15 @@ class Request:
     skin : Skin
     settings : Settings
     axes : StateAxes
+    knot_states : (*axes.shape, 4) array
+        Tanning states at the knots.
     needed : bool array of shape `axes.shape`
         Knots to compute.
+    whole : int
+        Number of states that the skin's table for any sun has.
+    within : float or None
+        Of a table for one scene: how far its states lie at most from those that a lookup of
+        `knot_states` gives for them, in the logarithm of one of the four numbers.
     seed : int
     known : Figures or None
         Other spectral figures than the project's.
@@ -52,7 +59,10 @@ class Request:
     skin: Skin
     settings: Settings
     axes: StateAxes
+    knot_states: np.ndarray
     needed: np.ndarray
+    whole: int
+    within: float | None = None
     seed: int = 1
     known: Figures | None = None
     chosen: Mapping[str, str] | None = None
@@ -60,7 +70,7 @@ class Request:
     @property
     def states(self) -> np.ndarray:
         """Tanning states to compute, (N, 4)."""
-        return self.axes.knot_states()[self.needed]
+        return self.knot_states[self.needed]
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import numpy as np
 from hylios.errors import InputError
 
 STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness")
+AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 
 LARGEST_COORDINATE = 30.0
 """Of a knot: a state 1e13 times the untanned one is no skin's."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.table.axes import STATE_NAMES, StateAxes, require_axes
+from hylios.table.axes import AXIS_UNIT, STATE_NAMES, StateAxes, require_axes
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.planes import MEANINGS, component_names
 from hylios.table.table import SkinTable
@@ -18,7 +18,6 @@ FORMAT = "skin tan table"
 FORMAT_VERSION = 2
 HEADER_ATTRIBUTE = "skinTanTable"
 CHECKSUM_ATTRIBUTE = "skinTanTableChecksum"
-AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 HALF, FLOAT = np.dtype("<f2"), np.dtype("<f4")
 LONGEST_HEADER = 1_000_000
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hylios.errors import InputError
+from hylios.table.axes import AXIS_UNIT, STATE_NAMES
 
 
 @dataclass(frozen=True)
@@ -52,10 +53,11 @@ MEANINGS = {
         "rays",
         fits_half=False,
     ),
-    "computed": Meaning(
-        "1 where the state was computed; 0 where it holds the numbers of the nearest that was",
-        "share",
-        components=("Y",),
+    "state": Meaning(
+        "the state that these numbers are of, and within: how far from a state what is looked up "
+        "here may lie, in each of the four, for the table to hold that state",
+        AXIS_UNIT,
+        components=(*STATE_NAMES, "within"),
     ),
 }
 PLANES = tuple(MEANINGS)

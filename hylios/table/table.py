@@ -58,6 +58,23 @@ class SkinTable:
         ends = np.cumsum([self.planes[name].shape[-1] for name in asked])
         return dict(zip(asked, np.split(found, ends[:-1], axis=-1), strict=True))
 
+    def holds(self, states: np.ndarray) -> np.ndarray:
+        """Whether the table says something of tanning states (..., 4), bool (...).
+
+        One for any sun does of all. One for a scene does where its plane `state`, looked up, gives
+        back the state: beyond its knots, off its axes or where nothing was computed it does not.
+
+        Raises
+        ------
+        InputError
+            If a state has a number that is not above 0.
+        """
+        if "state" not in self.planes:
+            return np.ones(states.shape[:-1], bool)
+        found = self.plane("state", states)
+        apart = np.abs(found[..., :4] - np.log(states / self.axes.untanned)).max(axis=-1)
+        return apart <= found[..., 4]
+
     def plane(self, name: str, states: np.ndarray) -> np.ndarray:
         """One plane at tanning states (..., 4), shape (..., components)."""
         return self.lookup(states, (name,))[name]

@@ -1,7 +1,6 @@
 """Tables that lack a plane or are for one schedule, and the export of a schedule."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -10,13 +9,20 @@ from synthetic import tan_object
 
 from blender_addon.tan import tan
 from hylios.errors import InputError
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.phototypes import phototype
+from hylios.table import from_stored, to_stored
+from hylios.tanning import Exposures
 from hylios.ultraviolet.exposures import of_sed
+from lut_builder.build import build
 from lut_builder.exr import write_table
 from lut_builder.schedule import reached_states, read_schedule
-from lut_builder.states import needed_knots
+from lut_builder.settings import Settings
 
-SPAN = {"mmd": 4.9, "med": 2.9, "first_day": 0.0, "last_day": 10.0}
+SKIN = phototype("III").skin
+QUICK = Settings(knots=(9, 3, 3, 2), colour_wavelengths=4, bands=(), profile_error=0.0)
+SPAN = {"mmd": SKIN.mmd, "med": SKIN.med, "first_day": 0.0, "last_day": 10.0}
+SUN = 1.5 * SKIN.mmd
+"""In SED, in the first hour: of the scene that a table is built for."""
 
 
 def without(table, *names):
@@ -24,32 +30,32 @@ def without(table, *names):
     return replace(table, planes=kept)
 
 
-def for_sun(table, exposures: Exposures, days: float):
-    """The table with all but what a schedule leads to marked as not computed, and spoilt."""
-    history = simulate(
-        Exposures(exposures.hours, np.linspace(0.0, 1.0, 512)[:, None] * exposures.doses),
-        PIGMENTATIONS["intermediate"],
-        mmd=4.9,
-        med=2.9,
-        hours=int(24 * days),
-    )
-    needed = needed_knots(table.axes, history.states.reshape(-1, 4), "linear")
-    assert not needed.all()
-    planes = {name: np.where(needed[..., None], each, 9.0) for name, each in table.planes.items()}
-    return replace(table, planes={**planes, "computed": needed[..., None].astype(float)})
+@pytest.fixture(scope="module")
+def part():
+    """The table of ten days after one exposure, as it comes back from a file of 16 bits."""
+    reached = reached_states(SKIN, Exposures([0], [SUN]), 10.0)
+    return from_stored(to_stored(build(SKIN, QUICK, reached=reached), half=True))
 
 
-def test_a_table_for_a_schedule_is_good_for_it(table):
-    part = for_sun(table, Exposures([0], [6.0]), 10.0)
-    found, expected = (tan(each, of_sed(0, 6.0), **SPAN) for each in (part, table))
-    assert found.colour == pytest.approx(expected.colour, abs=1e-6)
-    assert found.profile_width == pytest.approx(expected.profile_width, abs=1e-6)
+def test_a_table_for_a_schedule_is_good_for_it(part):
+    whole = build(SKIN, QUICK)
+    found, expected = (tan(each, of_sed(0, SUN), **SPAN) for each in (part, whole))
+    assert np.ptp(expected.colour[..., 0]) > 0.05
+    assert found.colour == pytest.approx(expected.colour, abs=0.003)
 
 
-def test_a_table_for_a_schedule_is_refused_for_another(table):
-    part = for_sun(table, Exposures([0], [6.0]), 10.0)
+@pytest.mark.parametrize(
+    ("dose", "last_day"), [(1.2 * SUN, 10.0), (10.0 * SUN, 10.0), (SUN, 14.0), (SUN, 300.0)]
+)
+def test_a_table_for_a_schedule_is_refused_for_another(part, dose, last_day):
+    """More sun leads beyond the knots, later days off the axes or where nothing was computed."""
     with pytest.raises(InputError, match="built for another schedule of sun"):
-        tan(part, of_sed(0, 60.0), **SPAN)
+        tan(part, of_sed(0, dose), **{**SPAN, "last_day": last_day})
+
+
+@pytest.mark.parametrize("dose", [0.0, 0.5 * SUN, SUN])
+def test_a_table_for_a_schedule_holds_for_less_of_it(part, dose):
+    assert tan(part, of_sed(0, dose), **{**SPAN, "last_day": 7.3}).colour.min() > 0.0
 
 
 def test_a_table_without_colour_is_refused(table):
@@ -98,20 +104,18 @@ def test_the_builder_reads_the_schedule_as_it_is(table_path, tmp_path):
     assert [each.name for each in tmp_path.iterdir()] == ["sun.csv"]
 
 
-def test_an_exported_schedule_gives_a_table_that_apply_takes(table, tmp_path):
-    """All the way: what the builder finds needed is all that Apply looks up."""
-    path, part = tmp_path / "sun.csv", tmp_path / "part.exr"
-    write_table(part, table)
-    obj = tan_object(part, dose=6.0)
+def test_an_exported_schedule_gives_a_table_that_apply_takes(tmp_path):
+    """All the way: the table of what was exported holds all that Apply looks up, and no more."""
+    path, table_path = tmp_path / "sun.csv", tmp_path / "part.exr"
+    write_table(table_path, build(SKIN, QUICK))
+    obj = tan_object(table_path, dose=SUN)
     obj.skin_tan.first_day, obj.skin_tan.last_day = 0.7, 13.1
     assert exported(path) == {"FINISHED"}
-
-    made_for = SimpleNamespace(dynamics=PIGMENTATIONS["intermediate"], mmd=4.9, med=2.9)
-    reached = reached_states(made_for, read_schedule(path), 13.1)
-    needed = needed_knots(table.axes, reached, table.interpolation)[..., None].astype(float)
-    write_table(part, replace(table, planes={**table.planes, "computed": needed}))
+    write_table(
+        table_path, build(SKIN, QUICK, reached=reached_states(SKIN, read_schedule(path), 13.1))
+    )
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
-    obj.skin_tan.exposures[0].dose = 60.0
+    obj.skin_tan.exposures[0].dose = 1.5 * SUN
     with pytest.raises(RuntimeError, match="built for another schedule of sun"):
         bpy.ops.skin_tan.apply()
 

@@ -14,33 +14,23 @@ from hylios.quadrature import skin_quadrature
 from hylios.skin import skin
 from hylios.specimen import SPECIMENS
 from hylios.table import from_stored, read_table, to_stored
-from hylios.tanning import Exposures
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import assembled, build, requested, units
+from lut_builder.build import build
 from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import main
-from lut_builder.pieces import ANGLE, pieces
-from lut_builder.schedule import reached_states, read_schedule
+from lut_builder.pieces import ANGLE
+from lut_builder.schedule import read_schedule
 from lut_builder.settings import PRESETS, Settings
-from lut_builder.work import done, in_threads
 
 SKIN = skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
 SMALL = Settings(knots=(3, 2), colour_wavelengths=5, profile_error=0.02, profile_wavelengths=4)
 COLOURS = Settings(knots=(2,), colour_wavelengths=4, bands=(365.0,), profile_error=0.0)
-FINE = Settings(knots=(14, 5, 4), colour_wavelengths=4, bands=(), profile_error=0.0)
-SUN = Exposures([0, 30], [6.0, 4.0])
 
 
 @pytest.fixture(scope="module")
 def small():
     return build(SKIN, SMALL)
-
-
-@pytest.fixture(scope="module")
-def whole():
-    """Every knot, of which a schedule's tables compute some."""
-    return build(SKIN, FINE)
 
 
 @pytest.mark.parametrize("place", [(0, 0), (2, 1)])
@@ -140,57 +130,30 @@ def test_settings_survive_the_header(small):
         assert settings_of(replace(small, provenance=provenance)) == settings
 
 
-@pytest.mark.parametrize("interpolation", ["linear", "pchip"])
-def test_a_schedule_s_table_says_the_same_where_it_leads(interpolation, whole):
-    """Bit for bit at all states that it leads to, though some knots were not computed."""
-    settings = replace(FINE, interpolation=interpolation)
-    reached = reached_states(SKIN, SUN, 20.0)
-    request = requested(SKIN, settings, reached=reached)
-    part = assembled(request, done(units(request), None, "", in_threads(2)))
-    whole = replace(whole, interpolation=interpolation)
-    count = int(request.needed.sum())
-    assert 0 < count < request.needed.size
-    assert sum(each.last - each.first for each in pieces(request)) == count
-    assert part.provenance["states_computed"] == count
-    assert part.planes["computed"].sum() == count and "computed" not in whole.planes
-    assert np.all(np.abs(part.plane("computed", reached) - 1.0) < 1e-12)
-    # The same planes together: sums over more columns may round otherwise.
-    found, expected = part.lookup(reached, list(whole.planes)), whole.lookup(reached)
-    for name, values in expected.items():
-        assert np.array_equal(found[name], values), name
-    assert not np.array_equal(part.planes["total_colour"], whole.planes["total_colour"])
-    states = check(part, count=5, seed=3).states
-    assert np.all(np.abs(part.plane("computed", states) - 1.0) < 1e-12)
-
-
-def test_a_schedule_s_knots_are_no_more_than_it_needs(whole):
-    """Without one of the linear table's knots, some lookup where the sun leads is another."""
-    settings = replace(FINE, interpolation="linear")
-    reached = reached_states(SKIN, SUN, 20.0)
-    request = requested(SKIN, settings, reached=reached)
-    random = np.random.default_rng(1)
-    whole = replace(whole, interpolation="linear")
-    expected = whole.plane("total_colour", reached)
-    for place in np.argwhere(request.needed)[::12]:
-        other = whole.planes["total_colour"].copy()
-        other[tuple(place)] += random.random(3)
-        changed = replace(whole, planes={"total_colour": other})
-        assert not np.array_equal(changed.plane("total_colour", reached), expected)
-
-
 def test_a_schedule_through_the_shell(tmp_path, capsys):
     path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
     sun.write_text("# a day at the beach\nhour,melanogenesis_sed,thickening_sed\n0,6,5\n30,4,3\n")
     read = read_schedule(sun)
     assert read.hours.tolist() == [0, 30]
     assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
-    quick = "--knots 9,5 --wavelengths 4 --bands visible --no-profile --interpolation linear"
+    quick = "--knots 9,3,3,2 --wavelengths 4 --bands visible --no-profile"
     command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
     assert main(command.split()) == 0
     said = capsys.readouterr().out
-    count = read_table(path).provenance["states_computed"]
-    assert f"the scene needs {count} of 45 states: {1 - count / 45:.0%} saved" in said
-    assert count < 45
+    told = read_table(path).provenance
+    count = told["states_computed"]
+    assert f"the scene needs {count} states, any sun 162: {1 - count / 162:.0%} saved" in said
+    assert count < 90 and told["states_for_any_sun"] == 162
+
+
+def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
+    path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    quick = "--wavelengths 4 --bands visible --no-profile"
+    command = f"build --skin III --schedule {sun} {quick} -o {path}"
+    assert main(command.split()) == 0
+    assert "the scene needs 1 states, any sun 162: 99% saved" in capsys.readouterr().out
+    assert read_table(path).axes.shape == (1,)
 
 
 @pytest.mark.parametrize(

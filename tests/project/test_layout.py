@@ -21,6 +21,7 @@ ALLOWED = {
     "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "threadpoolctl", "tqdm", "hylios"},
     "lut_builder/cluster.py": {"distributed", "hylios"},
+    "lut_builder/scene.py": {"numpy", "scipy", "hylios"},
     "lut_builder/trade_figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},

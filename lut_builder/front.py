@@ -23,13 +23,13 @@ LEAST_GAIN = 0.02
 
 PRESET_LIMITS = {
     "preview": (0.6, 0.5, 1.5),
-    "standard": (20.0, 0.1, 0.3),
-    "reference": (400.0, 0.1, 0.3),
+    "standard": (30.0, 0.1, 0.3),
+    "reference": (600.0, 0.1, 0.3),
 }
 """Of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
 
-The seconds are a third or less of what presets may take, 3, 60 and 1200 s with the start: other
-machines and skins are slower."""
+The seconds are half or less of what presets may take, 3, 60 and 1200 s with the start: other
+machines are slower."""
 
 
 @dataclass(frozen=True)
@@ -228,7 +228,7 @@ def write_points(path: Path, points: Sequence[Point], notes: Sequence[str]) -> N
     for each in points:
         made = asdict(each.settings)
         told = {name: made[name] for name in TRADED} | {"knots": " ".join(map(str, made["knots"]))}
-        told |= {name: f"{getattr(each, name):.4g}" for name in FIGURES}
+        told |= {name: f"{getattr(each, name):.6g}" for name in FIGURES}
         told |= {"seconds_2_cores": f"{each.seconds():.4g}", "preset": named(each)}
         rows.append(told)
     write_rows(path, rows, notes)

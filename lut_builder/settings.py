@@ -103,9 +103,9 @@ class Settings:
 
 PRESETS = {
     "preview": Settings(
-        knots=(7, 2), colour_wavelengths=4, profile_error=0.02, profile_wavelengths=4, nodes=18
+        knots=(5,), colour_wavelengths=6, profile_error=0.02, profile_wavelengths=4, nodes=14
     ),
-    "standard": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.003),
+    "standard": Settings(knots=(11, 3, 3, 2), profile_error=0.01),
     "reference": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.002),
 }
 """Points of the front of time against error that `lut-builder trade` measures, chosen by

@@ -162,7 +162,7 @@ def _bar(
 
         def tell(unit: Unit) -> None:
             bar.set_description_str(f"{what}, {len(found)} of {len(units)}", refresh=False)
-            bar.update(unit.size)
+            bar.update(min(unit.size, bar.total - bar.n))  # no rounding beyond the end
 
         yield tell
 

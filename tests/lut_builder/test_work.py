@@ -327,6 +327,14 @@ def test_progress_tells_count_and_time_left_on_standard_error(tmp_path, capsys):
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.filterwarnings("error")
+def test_rounding_does_not_take_the_bar_beyond_its_end():
+    """.7 + .1 + .3 is less than .7 + .3 + .1, the order in which they are done."""
+    units = [Unit(f"u{size}", walk, (1, 2), size=size) for size in (0.7, 0.1, 0.3)]
+    assert sum(each.size for each in units) < 0.7 + 0.3 + 0.1
+    done(units, None, "1", in_threads(1), "walks")
+
+
 # Threads and processes
 
 

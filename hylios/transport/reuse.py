@@ -126,21 +126,26 @@ class Profiles:
         """Share of a stack's subsurface light that leaves nearer than the end of each bin, (S, B).
 
         A ratio of two estimates, whose bias is some 1 / `effective_sample_size`; 0 where no light
-        came out.
+        came out, or less than none, as channels of colour can have by noise.
         """
-        whole = np.maximum(self.subsurface, LEAST)[:, None]
-        return np.cumsum(self.light, axis=1) / whole
+        return self._of_light(np.cumsum(self.light, axis=1), 0.0)
 
     @property
     def standard_error(self) -> np.ndarray:
         """Standard error of `within`, (S, B), of a ratio to first order.
 
-        Near .5 / sqrt(`effective_sample_size`) where half of the light is within.
+        Near .5 / sqrt(`effective_sample_size`) where half of the light is within; 1 at most, and
+        where no light came out.
         """
         near = np.cumsum(self.squares, axis=1)
         far = self.squares.sum(axis=1)[:, None] - near
         variance = (1.0 - self.within) ** 2 * near + self.within**2 * np.maximum(far, 0.0)
-        return np.sqrt(variance) / np.maximum(self.subsurface, LEAST)[:, None]
+        return np.minimum(self._of_light(np.sqrt(variance), 1.0), 1.0)
+
+    def _of_light(self, values: np.ndarray, without: float) -> np.ndarray:
+        """Values (S, B) over the light that came out; `without` where there is none."""
+        whole = self.subsurface[:, None]
+        return np.divide(values, whole, out=np.full_like(values, without), where=whole > 0.0)
 
 
 def profiles(

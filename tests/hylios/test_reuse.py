@@ -25,7 +25,7 @@ from hylios.transport.recording import (
     TRIED,
     TRIED_LENGTH,
 )
-from hylios.transport.reuse import allocated, needed_samples, profiles, skin_profiles
+from hylios.transport.reuse import Profiles, allocated, needed_samples, profiles, skin_profiles
 from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, count, trace
 from hylios.transport.walk import SUBSURFACE
 
@@ -242,6 +242,17 @@ def test_dark_skin_s_profile_may_be_less_sure_by_what_the_eye_misses():
     assert falls[1:] == pytest.approx(falls[1], rel=0.05)
     assert needed_samples(1e-9, 0.01) == pytest.approx(25.0)
     assert needed_samples(0.0, 0.1) == pytest.approx(25.0)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_channel_with_less_light_than_none_says_that_nothing_is_known():
+    """A colour channel's weights have signs: noise can leave it less than nothing."""
+    light = np.array([[0.2, -0.3, 0.05], [0.0, 0.0, 0.0], [0.1, 0.2, 0.1]])
+    squares = np.array([[1e-2, 1e-2, 1e-3], [0.0, 0.0, 0.0], [1e-6, 1e-6, 1e-6]])
+    found = Profiles(light, squares, np.ones(3, int), np.zeros(3, bool))
+    assert found.standard_error[:2].tolist() == [[1.0] * 3] * 2 and not found.within[:2].any()
+    assert found.within[2] == pytest.approx([0.25, 0.75, 1.0])
+    assert 0.0 < found.standard_error[2].max() < 0.01
 
 
 def test_rays_are_shared():

@@ -296,7 +296,7 @@ def test_a_trade_is_written_and_can_be_chosen_from(tmp_path, capsys):
     assert imread(picture).shape[2] in (3, 4)
     assert front(read_points(tmp_path / "t.csv")) == read_points(tmp_path / "t.csv")
     parts = (tmp_path / "t_parts.csv").read_text()
-    assert "skin: S3, pigmentation intermediate; VI, pigmentation" in parts
+    assert "skin: S3, pigmentation low; VI, pigmentation high" in parts
     assert "components, PPCA" in parts
 
 

@@ -157,6 +157,15 @@ def _reflectance_planes(
     return planes
 
 
+def channel_widths(light: np.ndarray) -> np.ndarray:
+    """Widths (...) in mm of the profiles of colour channels, from their light (..., bins)."""
+    from hylios.transport.simulate import DISTANCE_EDGES  # numba
+
+    seen = np.maximum(light, 0.0)
+    seen[~seen.any(axis=-1), 0] = 1.0  # where no light comes out any width will do
+    return np.asarray(burley_width(DISTANCE_EDGES, seen))
+
+
 def _profile_planes(
     settings: Settings, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
@@ -166,7 +175,6 @@ def _profile_planes(
     colour, be it negatively.
     """
     from hylios.transport.reuse import Profiles  # numba
-    from hylios.transport.simulate import DISTANCE_EDGES
 
     walked = sorted((each for each in parts if each.kind == "profile"), key=lambda p: p.wavelength)
     found = [results[each.name] for each in walked]
@@ -180,9 +188,7 @@ def _profile_planes(
             rays=found[0]["rays"],
             anew=found[0]["anew"],
         )
-        seen = np.maximum(channel.light, 0.0)
-        seen[~seen.any(axis=1), 0] = 1.0  # where no light comes out any width will do
-        widths.append(burley_width(DISTANCE_EDGES, seen))
+        widths.append(channel_widths(channel.light))
         errors.append(channel.standard_error.max(axis=1))
         samples.append(channel.effective_sample_size)
     return {

@@ -150,7 +150,8 @@ def check(
     """
     made_for = skin_of(table)
     random = np.random.default_rng(seed)
-    states = random.choice(_between_knots(table, reachable_states(made_for, 100, seed)), count)
+    held = _between_knots(table, reachable_states(made_for, 100, seed))
+    states = random.choice(held, count, replace=len(held) < count)
     seen = table.plane("total_colour", states)
     specimens = [made_for.tanned(state[:3], state[3]) for state in states]
     model = figures_of(table), table.provenance.get("readings")
@@ -213,9 +214,17 @@ def _walked(
     return np.array(colours), np.array(spread)
 
 
+def _computed_states(table: SkinTable) -> np.ndarray:
+    """The states (N, 4) that were computed for a table."""
+    if "state" not in table.planes:
+        return table.axes.knot_states().reshape(-1, 4)
+    ratios = np.exp(table.planes["state"][..., :4].reshape(-1, 4))
+    return np.unique(table.axes.untanned * ratios, axis=0)
+
+
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
     """Those of the states (N, 4) that are no knot of the table and that it holds."""
-    knots = np.log(table.axes.knot_states().reshape(-1, 4))
+    knots = np.log(_computed_states(table))
     apart = np.full(len(states), np.inf)
     for knot in knots:
         apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))

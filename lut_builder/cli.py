@@ -49,6 +49,9 @@ if TYPE_CHECKING:
 ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
 """Planes that say how good the others are."""
 
+SCENE_DAYS = 60.0
+"""Of a schedule's scene by default."""
+
 LEAST_RAYS, MOST_RAYS = 100, 10**9
 SHORT = 5.0
 """Seconds of work below which the start of other processes does not pay."""
@@ -106,7 +109,7 @@ def _parser() -> argparse.ArgumentParser:
         "melanogenesis_sed, thickening_sed, as `hylios dose` prints and the add-on exports",
     )
     building.add_argument(
-        "--days", type=float, default=60.0, help="that the schedule's scene lasts (60)"
+        "--days", type=float, help=f"that the schedule's scene lasts ({SCENE_DAYS:g})"
     )
     building.add_argument(
         "--resume", action="store_true", help="go on with a build that was interrupted"
@@ -239,6 +242,8 @@ def _settings(asked: argparse.Namespace) -> Settings:
 
 def _build(asked: argparse.Namespace) -> None:
     require_work(asked)
+    if asked.days is not None and asked.schedule is None:
+        raise InputError(f"--days is {asked.days:g} without a --schedule; allowed is both.")
     settings = _settings(asked)
     _, known, chosen = chosen_skin(asked)
     made_for = chosen_tanning_skin(asked, asked.untanned)
@@ -250,7 +255,8 @@ def _build(asked: argparse.Namespace) -> None:
 
     reached = None
     if asked.schedule is not None:
-        reached = reached_states(made_for, read_schedule(asked.schedule), asked.days)
+        days = SCENE_DAYS if asked.days is None else asked.days
+        reached = reached_states(made_for, read_schedule(asked.schedule), days)
     request = requested(
         made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
     )
@@ -258,8 +264,8 @@ def _build(asked: argparse.Namespace) -> None:
     work = units(request)
     with unfinished(asked.output, (".exr",), resume=asked.resume, force=asked.force) as folder:
         if reached is not None:
-            saved = 1.0 - wanted / whole
-            print(f"the scene needs {wanted} states, any sun {whole}: {saved:.0%} saved")
+            saved = f"{1.0 - wanted / whole:.0%}" if wanted < whole else "none"
+            print(f"states for the scene: {wanted}, for any sun: {whole}; {saved} saved")
         runner = _runner(asked, sum(each.size for each in work))
         found = done(work, folder, software_digest(), runner, f"table of {wanted} states")
         table = assembled(request, found)
@@ -285,6 +291,8 @@ def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
 def _trade(asked: argparse.Namespace) -> None:
     require_work(asked)
     if asked.output is None:
+        if asked.also:
+            raise InputError(f"--also {asked.also[0]} is given without -o; it is for measuring.")
         _show(asked, _known_points(asked))
         return
     if asked.front is not None:
@@ -373,7 +381,8 @@ def _check(asked: argparse.Namespace) -> None:
             threads=asked.threads,
             progress=progress,
         )
-    print(f"states: {len(result.differences)}, reachable, none of them a knot")
+    held = ", held by the table" if "state" in table.planes else ""
+    print(f"states: {len(result.differences)}, reachable{held}, none of them a knot")
     print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
     print(f"largest: {result.differences.max():.3f}")
     if result.noise is not None:

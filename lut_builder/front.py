@@ -28,8 +28,8 @@ PRESET_LIMITS = {
 }
 """Of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
 
-The seconds are half or less of what presets may take, 3, 60 and 1200 s with the start: other
-machines are slower."""
+What presets may take is 3, 60 and 1200 s with the start; but for the preview, most of which is the
+start, half of it is left to slower machines."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Point:
     profile_rms, profile_largest : float
         Of the difference of the share of light that leaves within a distance, at the distance
         where it is largest; 0 without a profile.
-    profile_delta_e : float
+    profile_lightness : float
         The most that such a share missing changes the lightness L* of what is lit from one side.
     """
 
@@ -65,7 +65,7 @@ class Point:
     band_rmse: float
     profile_rms: float = 0.0
     profile_largest: float = 0.0
-    profile_delta_e: float = 0.0
+    profile_lightness: float = 0.0
 
     def seconds(self, cores: int = CORES) -> float:
         """On so many cores of the machine that measured."""
@@ -75,9 +75,10 @@ class Point:
     def error(self) -> float:
         """Largest difference in CIEDE2000, of the colour and what the profile can do to it.
 
-        Their errors are independent: the root of the sum of squares.
+        Their errors are independent: the root of the sum of squares. Differences of L* count as
+        they are, which is no less than CIEDE2000 makes of them.
         """
-        return float(np.hypot(self.delta_e_largest, self.profile_delta_e))
+        return float(np.hypot(self.delta_e_largest, self.profile_lightness))
 
 
 def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GAIN) -> np.ndarray:
@@ -191,7 +192,7 @@ def described(point: Point, cores: int = CORES) -> str:
     text += f", CIEDE2000 mean {point.delta_e_mean:.3f}, largest {point.delta_e_largest:.3f}"
     if made.has_profile:
         text += f"; share within a distance {point.profile_largest:.4f} at most off"
-        text += f", which is {point.profile_delta_e:.2f} of L*"
+        text += f", which is {point.profile_lightness:.2f} of L*"
     name = named(point)
     return f"{text} ({name})" if name else text
 

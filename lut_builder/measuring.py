@@ -18,13 +18,14 @@ import numpy as np
 
 from hylios.adding import spectra
 from hylios.colour import difference, lab, rec709_weights
-from hylios.profile import burley_share_within, burley_width
+from hylios.profile import burley_share_within
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
+from hylios.transport.paths import LEAST
 from hylios.transport.reuse import skin_profiles
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import assembled, requested
+from lut_builder.build import assembled, channel_widths, requested
 from lut_builder.exr import write_table
 from lut_builder.pieces import ANGLE, STATES_TOGETHER, computed, pieces
 from lut_builder.settings import Settings
@@ -172,8 +173,8 @@ def fine_profiles(
         specimens, few.wavelengths, error=error, angle=ANGLE, seed=seed + 1, threads=1
     )
     channels = np.einsum("cw,wsb->scb", few.weights, np.array([each.light for each in found]))
-    light = channels.sum(axis=2)
-    widths = np.asarray(burley_width(DISTANCE_EDGES, np.maximum(channels, 0.0)))
+    light = np.maximum(channels.sum(axis=2), LEAST)
+    widths = channel_widths(channels)
     within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
     seen = burley_share_within(DISTANCE_EDGES[1:], widths[..., None])
     return FineProfiles(widths, light, np.abs(within - seen).max(axis=2))

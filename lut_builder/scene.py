@@ -37,7 +37,7 @@ def laid_over(whole: StateAxes, reached: np.ndarray) -> tuple[StateAxes, np.ndar
     basis = _all_directions(whole)
     coordinates = np.log(reached / whole.untanned) @ basis
     ends = coordinates.min(axis=0), coordinates.max(axis=0)
-    places = coordinates[_apart(coordinates)]
+    places = coordinates[_representatives(coordinates)]
     own = sorted(whole.knots, key=lambda knots: len(knots) == 1)  # as `_all_directions`
     several = sum(len(knots) > 1 for knots in own)
     knots, off = (np.zeros(1),), np.zeros((1, 3))
@@ -57,12 +57,12 @@ def laid_over(whole: StateAxes, reached: np.ndarray) -> tuple[StateAxes, np.ndar
 def farthest(
     axes: StateAxes, knot_states: np.ndarray, reached: np.ndarray, interpolation: str
 ) -> float:
-    """How far the states (N, 4) lie from those that a lookup between the knots makes of them.
+    """How far the states (N, 4) lie at most from what a lookup between the knots makes of them.
 
-    In the logarithm of one of the four numbers, to within `NEAR`.
+    In the logarithm of one of the four numbers; `NEAR` is added for the states not looked at.
     """
     ratios = np.log(reached / axes.untanned)
-    ratios = ratios[_apart(ratios)]
+    ratios = ratios[_representatives(ratios)]
     found = interpolate(
         interpolation, axes.knots, np.log(knot_states / axes.untanned), ratios @ axes.basis
     )
@@ -76,8 +76,8 @@ def _all_directions(whole: StateAxes) -> np.ndarray:
     return np.concatenate([whole.basis[:, order], directions[:, len(order) :]], axis=1)
 
 
-def _apart(places: np.ndarray) -> np.ndarray:
-    """Which of places (N, 4) to look at so that none lies farther than `NEAR` from one of them."""
+def _representatives(places: np.ndarray) -> np.ndarray:
+    """Numbers of some of the places (N, 4), from one of which none lies farther than `NEAR`."""
     cells = np.round(places / NEAR).astype(int)
     cells -= cells.min(axis=0)
     _, first = np.unique(np.ravel_multi_index(cells.T, cells.max(axis=0) + 1), return_index=True)

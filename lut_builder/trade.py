@@ -178,7 +178,7 @@ class ProfileError:
     serial: float
     rms: float
     largest: float
-    delta_e: float
+    lightness: float
     walked: bool = True
 
 
@@ -381,7 +381,7 @@ def completed(
                 last.serial,
                 float(rms),
                 float(last.largest * rms / last.rms),
-                float(last.delta_e * rms / last.rms),
+                float(last.lightness * rms / last.rms),
                 walked=False,
             )
         )
@@ -424,7 +424,7 @@ def _points(
                 band_rmse=seen.bands,  # noqa: B023
                 profile_rms=profiled.rms if profiled else 0.0,
                 profile_largest=profiled.largest if profiled else 0.0,
-                profile_delta_e=profiled.delta_e if profiled else 0.0,
+                profile_lightness=profiled.lightness if profiled else 0.0,
             )
 
         made = {

@@ -15,7 +15,7 @@ from hylios.table.planes import MEANINGS, component_names
 from hylios.table.table import SkinTable
 
 FORMAT = "skin tan table"
-FORMAT_VERSION = 2
+FORMAT_VERSION = 3
 HEADER_ATTRIBUTE = "skinTanTable"
 CHECKSUM_ATTRIBUTE = "skinTanTableChecksum"
 HALF, FLOAT = np.dtype("<f2"), np.dtype("<f4")

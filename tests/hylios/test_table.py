@@ -115,7 +115,7 @@ def changed(stored: StoredTable, change) -> StoredTable:
 
 CHANGES = [
     (lambda header: header.update(format="other"), "not a skin tan table"),
-    (lambda header: header.update(format_version=1), "format version 1; this program reads 2"),
+    (lambda header: header.update(format_version=1), "format version 1; this program reads 3"),
     (lambda header: header.update(format_version=[9]), "format version .9."),
     (lambda header: header.pop("axes"), "incomplete: .*axes"),
     (lambda header: header.update(axes=5), "incomplete"),

@@ -138,12 +138,25 @@ def test_a_schedule_through_the_shell(tmp_path, capsys):
     assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
     quick = "--knots 9,3,3,2 --wavelengths 4 --bands visible --no-profile"
     command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
+    assert main(["build", "--days", "10", "-o", str(path)]) == 2
+    assert "--days is 10 without a --schedule" in capsys.readouterr().err
     assert main(command.split()) == 0
     said = capsys.readouterr().out
     told = read_table(path).provenance
     count = told["states_computed"]
-    assert f"the scene needs {count} states, any sun 162: {1 - count / 162:.0%} saved" in said
+    assert f"for the scene: {count}, for any sun: 162; {1 - count / 162:.0%} saved" in said
     assert count < 90 and told["states_for_any_sun"] == 162
+
+
+def test_a_scene_that_reaches_farther_than_other_suns_saves_nothing(tmp_path, capsys):
+    """Sun every day of 60, where the table for any sun takes up to 11 exposures for its limits."""
+    sun = tmp_path / "sun.csv"
+    days = [f"{24 * day + 12},13.7,13.7" for day in range(60)]
+    sun.write_text("\n".join(["hour,melanogenesis_sed,thickening_sed", *days]))
+    quick = "--knots 3,3,3 --wavelengths 4 --bands visible --no-profile"
+    command = f"build --skin VI --schedule {sun} {quick} -o {tmp_path / 't.exr'}"
+    assert main(command.split()) == 0
+    assert "states for the scene: 36, for any sun: 27; none saved" in capsys.readouterr().out
 
 
 def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
@@ -152,7 +165,7 @@ def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
     quick = "--knots 5,2 --wavelengths 4 --bands visible --no-profile"
     command = f"build --skin III --schedule {sun} {quick} -o {path}"
     assert main(command.split()) == 0
-    assert "the scene needs 1 states, any sun 10: 90% saved" in capsys.readouterr().out
+    assert "states for the scene: 1, for any sun: 10; 90% saved" in capsys.readouterr().out
     assert read_table(path).axes.shape == (1,)
 
 

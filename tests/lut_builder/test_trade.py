@@ -78,9 +78,9 @@ def test_tables_with_and_without_a_profile_have_fronts_of_their_own():
 
 
 def test_the_profile_counts_as_colour_does():
-    one = replace(point(1.0, 0.3), profile_delta_e=0.4)
+    one = replace(point(1.0, 0.3), profile_lightness=0.4)
     assert one.error == pytest.approx(0.5)
-    assert replace(one, profile_delta_e=0.0).error == 0.3
+    assert replace(one, profile_lightness=0.0).error == 0.3
 
 
 def test_lightness_lost_is_that_of_cie_1976():
@@ -178,7 +178,7 @@ def test_profiles_that_were_not_walked_follow_from_those_that_were():
     assert [each.walked for each in noisy] == [True, True, False, False]
     assert noisy[3].rms == pytest.approx(noisy[1].rms / 4.0, rel=0.02)
     assert noisy[3].largest == pytest.approx(noisy[1].largest / 4.0, rel=0.02)
-    assert noisy[3].delta_e == pytest.approx(noisy[1].delta_e / 4.0, rel=0.02)
+    assert noisy[3].lightness == pytest.approx(noisy[1].lightness / 4.0, rel=0.02)
     assert noisy[2].shared == 12.0 and noisy[3].shared == 48.0 and noisy[3].serial == 1.0
     off = completed(runs(0.1), truth, (*errors, 5e-4), share)
     assert off[-1].rms == pytest.approx(share_errors(1.1 * fine, fine).max(), rel=0.05)
@@ -237,6 +237,8 @@ def test_the_shipped_front_is_shown_at_once(capsys):
     shown = capsys.readouterr().out.splitlines()
     assert len(shown) == len(shipped_points())
     assert {name for name in PRESETS if any(f"({name})" in line for line in shown)} == set(PRESETS)
+    assert main(["trade", "--also", "VI"]) == 2
+    assert "--also VI is given without -o" in capsys.readouterr().err
     assert main(["trade", "--max-seconds", "1e6"]) == 0
     assert "chosen:" in capsys.readouterr().out
 

@@ -309,8 +309,6 @@ def test_an_interrupted_trade_leaves_nothing(tmp_path):
         command,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        # A shell's job in the background would ignore it.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     assert process.stderr is not None
     seen = b""

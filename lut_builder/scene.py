@@ -122,7 +122,8 @@ def _sheet(
     found = np.zeros((size, off.shape[1]))
     if free.size and off.shape[1]:
         wanted = (weights.T @ off)[free]
-        found[free] = spsolve(normal.tocsc()[free][:, free], wanted).reshape(wanted.shape)
+        solved = spsolve(normal.tocsc()[free][:, free], wanted)
+        found[free] = np.reshape(np.asarray(solved), wanted.shape)
     return found, np.abs(weights @ found - off).max(axis=0)
 
 

@@ -7,9 +7,9 @@ from datetime import date
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from hylios.ultraviolet.dose import Absorptance
-from hylios.ultraviolet.exposures import Doses, joined, of_sed, of_sun, of_uv_index
-from hylios.ultraviolet.protection import BARE, sunscreen
+from hylios.sun.action_spectra import Absorptance
+from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
+from hylios.sun.protection import BARE, sunscreen
 
 LAST_DAY_LIMIT = 366.0
 ANY_YEAR = 2025  # the sun stands nearly alike in all

@@ -23,22 +23,9 @@ from hylios.errors import InputError
 
 ADDON = Path(__file__).parent
 HYLIOS = Path(hylios.__file__).parent
-HYLIOS_PARTS = (
-    "__init__.py",
-    "adding",
-    "errors.py",
-    "files.py",
-    "physiology.py",
-    "quadrature.csv",
-    "quadrature.py",
-    "skin.py",
-    "specimen.py",
-    "spectra",
-    "table",
-    "tanning",
-    "tissue.py",
-    "ultraviolet",
-)
+NOT_CARRIED = ("lab", "transport", "commands")
+"""Rooms of `hylios` that a scene never needs, as `tests/project/test_layout.py` holds them."""
+
 MANIFEST = "blender_manifest.toml"
 # The first day that a zip can hold: the same sources give the same bytes.
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -65,14 +52,14 @@ def build(destination: Path, tables: Path = ADDON / "tables") -> Path:
 
 
 def hylios_files() -> list[str]:
-    """Paths within hylios of what the add-on carries of it: modules, and rooms with their data."""
-    found = []
-    for part in HYLIOS_PARTS:
-        path = HYLIOS / part
-        files = path.rglob("*") if path.is_dir() else [path]
-        wanted = (path for path in files if path.is_file() and "__pycache__" not in path.parts)
-        found += sorted(path.relative_to(HYLIOS).as_posix() for path in wanted)
-    return found
+    """Paths within hylios of what the add-on carries: all but the rooms of `NOT_CARRIED`."""
+    return sorted(
+        path.relative_to(HYLIOS).as_posix()
+        for path in HYLIOS.rglob("*")
+        if path.is_file()
+        and "__pycache__" not in path.parts
+        and path.relative_to(HYLIOS).parts[0] not in NOT_CARRIED
+    )
 
 
 def write_wheel(folder: Path) -> Path:

@@ -5,8 +5,8 @@ from pathlib import Path
 import bpy
 
 from hylios.files import require_target, written_beside
+from hylios.sun.doses import Doses
 from hylios.table import read_table
-from hylios.ultraviolet.exposures import Doses
 
 from . import doses, tables
 from .apply import check_object, minimal_doses

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError, require_range
+from hylios.sun.doses import Doses
 from hylios.table import SkinTable, melanin_dynamics
 from hylios.tanning import Exposures, states_at
-from hylios.ultraviolet.exposures import Doses
 
 from .doses import LAST_DAY_LIMIT
 

@@ -16,14 +16,14 @@ import numpy as np
 from tqdm import tqdm
 
 from hylios.adding import spectrum as spectrum_without_noise
+from hylios.commands.shell import add_work_arguments, require_work, run
 from hylios.errors import InputError, require_whole
 from hylios.files import written_beside
-from hylios.phototypes import PHOTOTYPES, phototype
-from hylios.shell import add_work_arguments, require_work, run
 from hylios.skin import Skin, skin
-from hylios.specimen import SPECIMENS, Specimen
+from hylios.skin.phototypes import PHOTOTYPES, phototype
+from hylios.skin.specimen import SPECIMENS, Specimen
 from hylios.transport.simulate import MOST_RAYS, Progress, spectrum
-from lut_builder.states import reachable_states, untanned_state
+from lut_builder.axes import reachable_states, untanned_state
 
 WAVELENGTHS = np.array(
     [250.0, 290.0, 320.0, 365.0, 420.0, 470.0, 545.0, 600.0, 700.0, 900.0, 1200.0, 1650.0, 2500.0]

@@ -14,7 +14,7 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 
 from examples import bench_tables
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
 

@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from hylios.adding.spectrum import spectrum as solved
-from hylios.colour import rec709_weights
-from hylios.phototypes import phototype
+from hylios.lab.colour import rec709_weights
 from hylios.skin import Skin
+from hylios.skin.phototypes import phototype
 from hylios.table import SkinTable, read_table
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import build
+from lut_builder.assemble import build
 from lut_builder.check import FINE, check
-from lut_builder.pieces import ANGLE
+from lut_builder.request import ANGLE
 from lut_builder.settings import Settings
 
 CORES = 2

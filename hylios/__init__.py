@@ -6,7 +6,7 @@ Skin Appearance Changes Due to Tanning" (PhD thesis, University of Waterloo). Do
 equations and tables by number.
 
 Importing this package, its specimens, its tanning model or its tables needs numpy alone. numba is
-imported by `hylios.transport`, colour-science by `hylios.colour`.
+imported by `hylios.transport`, colour-science by `hylios.lab.colour`.
 """
 
 __version__ = "0.1.0"

@@ -77,7 +77,7 @@ class Colours:
     wavelengths : (N,) ascending array, nm
         Of a grid fine enough to give the right colour.
     weights : (3, N) array
-        That give it (`hylios.colour.rec709_weights`); each row's sum is 1.
+        That give it (`hylios.lab.colour.rec709_weights`); each row's sum is 1.
     reflectances : (S, N) array
         0 to 1.
     metrics : (S, 3, 3) array

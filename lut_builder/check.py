@@ -8,18 +8,18 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from hylios.adding import solve
-from hylios.colour import difference, rec709_weights
 from hylios.errors import InputError
+from hylios.lab.colour import difference, rec709_weights
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin import UNTANNED, Skin
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures, figures, replaced
 from hylios.table import SkinTable, melanin_dynamics
 from hylios.tissue import stack
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.pieces import ANGLE
+from lut_builder.axes import reachable_states
+from lut_builder.request import ANGLE
 from lut_builder.settings import Settings
-from lut_builder.states import reachable_states
 
 FINE = np.arange(400.0, 701.0, 5.0)
 """Wavelengths in nm of a direct colour without noise."""

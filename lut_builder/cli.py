@@ -11,11 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hylios.errors import InputError, require_whole
-from hylios.files import require_target
-from hylios.phototypes import PHOTOTYPES, phototype
-from hylios.quadrature import FEWEST, MOST
-from hylios.shell import (
+from hylios.commands.shell import (
     add_skin_arguments,
     add_tanning_arguments,
     add_work_arguments,
@@ -25,9 +21,14 @@ from hylios.shell import (
     require_work,
     run,
 )
+from hylios.errors import InputError, require_whole
+from hylios.files import require_target
+from hylios.quadrature import FEWEST, MOST
 from hylios.skin import UNTANNED
+from hylios.skin.phototypes import PHOTOTYPES, phototype
 from hylios.table import INTERPOLATIONS, read_table
-from lut_builder.front import (
+from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
+from lut_builder.trade.pareto import (
     Point,
     best,
     cheapest,
@@ -39,10 +40,9 @@ from lut_builder.front import (
     write_points,
     write_rows,
 )
-from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 
 if TYPE_CHECKING:
-    from lut_builder.work import Runner
+    from lut_builder.jobs.work import Runner
 
 # numba, colour-science and OpenImageIO take a second or more: only the commands import them.
 
@@ -248,10 +248,10 @@ def _build(asked: argparse.Namespace) -> None:
     _, known, chosen = chosen_skin(asked)
     made_for = chosen_tanning_skin(asked, asked.untanned)
 
-    from lut_builder.build import assembled, requested, units
+    from lut_builder.assemble import assembled, requested, units
     from lut_builder.exr import write_table
+    from lut_builder.jobs.work import done, software_digest, unfinished
     from lut_builder.schedule import reached_states, read_schedule
-    from lut_builder.work import done, software_digest, unfinished
 
     reached = None
     if asked.schedule is not None:
@@ -278,10 +278,10 @@ def _build(asked: argparse.Namespace) -> None:
 
 def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
     """Where the units are done: on a cluster, in this process if they are short, or in several."""
-    from lut_builder.work import in_processes, in_threads
+    from lut_builder.jobs.work import in_processes, in_threads
 
     if asked.dask is not None:
-        from lut_builder.cluster import on_cluster
+        from lut_builder.jobs.cluster import on_cluster
 
         return on_cluster(asked.dask)
     cores = asked.threads or os.cpu_count() or 1
@@ -306,8 +306,8 @@ def _trade(asked: argparse.Namespace) -> None:
         require_target(path, (kind,), asked.force)
     skins = [chosen_tanning_skin(asked), *(phototype(each).skin for each in asked.also)]
 
-    from lut_builder.trade import FULL, QUICK, Trade, measure, notes
-    from lut_builder.trade_figure import draw
+    from lut_builder.trade.figure import draw
+    from lut_builder.trade.trade import FULL, QUICK, Trade, measure, notes
 
     extent = QUICK if asked.quick else FULL
     measured = []

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.commands.shell import number
 from hylios.errors import InputError, require_range
-from hylios.shell import number
 from hylios.skin import Skin
 from hylios.tanning import Exposures, states_at
 

@@ -109,4 +109,4 @@ PRESETS = {
     "reference": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.002),
 }
 """Points of the front of time against error that `lut-builder trade` measures, chosen by
-`lut_builder.front.presets`."""
+`lut_builder.trade.pareto.presets`."""

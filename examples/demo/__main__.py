@@ -15,8 +15,8 @@ from tqdm import tqdm
 import blender_addon
 from examples.demo import colours, interrupt, montage, render, scene
 from examples.demo.body import BodyUnavailableError, fetch_wheel
+from hylios.commands.shell import run
 from hylios.errors import InputError
-from hylios.shell import run
 from hylios.table import read_table
 
 OUT = Path("out")

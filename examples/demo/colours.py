@@ -9,7 +9,7 @@ import numpy as np
 
 from examples.demo import swimsuit
 from examples.demo.render import Light, Window
-from hylios import colour
+from hylios.lab import colour
 from hylios.table import SkinTable, melanin_dynamics
 from hylios.tanning import Exposures, simulate
 
@@ -83,9 +83,7 @@ def _most_even(candidates: np.ndarray, position: np.ndarray, brightness: np.ndar
     """The candidate (3,) whose patch is seen whole and has the most even light."""
     lights = [brightness[_near(position, place)] for place in candidates]
     whole = 0.8 * max(light.size for light in lights)
-    unevenness = [
-        light.std() / light.mean() if light.size >= whole else np.inf for light in lights
-    ]
+    unevenness = [light.std() / light.mean() if light.size >= whole else np.inf for light in lights]
     return candidates[int(np.argmin(unevenness))]
 
 
@@ -176,6 +174,11 @@ def write_csv(found: Sequence[Reading], path: Path) -> None:
             for linear in (each.rendered, each.predicted):
                 numbers += [*srgb_bytes(linear), *(f"{value:.3f}" for value in colour.lab(linear))]
             writer.writerow(
-                [f"{each.day:g}", each.skin, *numbers, f"{each.difference:.3f}",
-                 f"{each.entering:.4f}"]
+                [
+                    f"{each.day:g}",
+                    each.skin,
+                    *numbers,
+                    f"{each.difference:.3f}",
+                    f"{each.entering:.4f}",
+                ]
             )

@@ -27,8 +27,8 @@ from examples.figures import (
 )
 from examples.figures.light import Effort, Task
 from examples.figures.measured_people import read_people
+from hylios.commands.shell import run
 from hylios.errors import InputError, require_whole
-from hylios.shell import run
 
 GROUPS = (
     absorbers,

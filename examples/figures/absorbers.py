@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from examples.figures.drawing import COLOURS, sheet
 from examples.figures.light import Effort, Task
 from examples.figures.report import Row
-from hylios.pictures import write_figure
+from hylios.lab.pictures import write_figure
 from hylios.spectra import Figure, figures
 from hylios.tissue import HEMOGLOBIN_WEIGHT
 

@@ -14,8 +14,8 @@ from examples.figures.drawing import COLOURS, sheet
 from examples.figures.light import RAYS_AS_LONG, Effort, Task, Tick
 from examples.figures.measured_brdf import forehead
 from examples.figures.report import Row, claim
-from hylios.pictures import write_figure
-from hylios.specimen import SPECIMENS
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import SPECIMENS
 from hylios.transport.angular import AngularReflectance, brdf
 from hylios.transport.simulate import share_error
 

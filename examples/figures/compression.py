@@ -10,10 +10,10 @@ import numpy as np
 from examples.figures.drawing import COLOURS, plot, reflectance_axes, sheet, swatch
 from examples.figures.light import RANGE, THESIS_RAYS, Curve, Effort, Task, noise_free, noisy
 from examples.figures.report import Row, claim, with_noise
-from hylios.colour import difference
-from hylios.colour import swatch as visible_colour
-from hylios.pictures import write_figure
-from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
+from hylios.lab.colour import difference
+from hylios.lab.colour import swatch as visible_colour
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 FIGURES = (*(f"D.{number}" for number in range(1, 10)), "table D.1")
 

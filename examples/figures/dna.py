@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from examples.figures.light import Task, Tick, exact
 from examples.figures.report import Row
-from hylios.specimen import SPECIMENS, with_values
+from hylios.skin.specimen import SPECIMENS, with_values
 from hylios.spectra import figures
 from hylios.tissue import Layer, Stack, stack
 

@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from examples.figures.light import Curve
-from hylios.colour import BANDS, srgb
-from hylios.colour import swatch as colour_of_band
+from hylios.lab.colour import BANDS, srgb
+from hylios.lab.colour import swatch as colour_of_band
 
 COLOURS = ("black", "#c1272d", "#0072b2", "#009e73", "#e69f00", "#7b3294")
 DOMAINS = {"UV": BANDS["uv"], "visible": BANDS["visible"], "IR": BANDS["ir"]}

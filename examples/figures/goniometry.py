@@ -1,9 +1,10 @@
 """Figure 6.5: how far an epidermis turns the light that it lets through, at 302 nm.
 
-Measured by W. A. G. Bruls and J. C. van der Leun 1984 (hylios/predecessors/bruls_goniometry.csv).
-Their paper was not at hand: not established is in which medium behind the isolated sample the
-angles were measured, and how thick the sample was. So the angles inside the tissue are compared
-first, as BioSpec uses them, and those after refraction into air beside them.
+Measured by W. A. G. Bruls and J. C. van der Leun 1984
+(hylios/lab/predecessors/bruls_goniometry.csv). Their paper was not at hand: in which medium behind
+the isolated sample the angles were measured, and how thick the sample was, is not established. So
+the angles inside the tissue are compared first, as BioSpec uses them, and those after refraction
+into air beside them.
 """
 
 from collections.abc import Mapping
@@ -18,9 +19,9 @@ from matplotlib.figure import Figure
 from examples.figures.drawing import COLOURS
 from examples.figures.light import RAYS_AS_LONG, Effort, Task, Tick
 from examples.figures.report import Row
-from hylios.pictures import write_figure
-from hylios.predecessors.biospec import goniometry
-from hylios.specimen import SPECIMENS
+from hylios.lab.pictures import write_figure
+from hylios.lab.predecessors.biospec import goniometry
+from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Stack, stack
 from hylios.transport.counting import counted
 from hylios.transport.simulate import Rays

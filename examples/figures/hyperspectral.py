@@ -10,8 +10,8 @@ from examples.figures.drawing import plot, points, reflectance_axes, sheet
 from examples.figures.light import RANGE, Curve, Effort, Task, noise_free, walked
 from examples.figures.measured_people import People
 from examples.figures.report import Row, agreement
-from hylios.pictures import write_figure
-from hylios.specimen import SPECIMENS
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import SPECIMENS
 
 FIGURES = ("6.6",)
 

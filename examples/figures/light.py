@@ -7,7 +7,7 @@ import numpy as np
 
 from examples.figures.measured_people import People
 from hylios.adding import solve
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.tissue import Stack, stack
 from hylios.transport.simulate import spectrum
 from hylios.transport.survival import with_survival

@@ -8,8 +8,8 @@ import numpy as np
 from examples.figures.drawing import COLOURS, bars, plot, points, reflectance_axes, sheet
 from examples.figures.light import Curve, Effort, Task, noise_free, walked
 from examples.figures.report import Row, agreement, claim
-from hylios.pictures import write_figure
-from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 FIGURES = ("5.3", "C.1", "C.2", "C.3", "C.4", "C.5")
 

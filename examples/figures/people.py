@@ -18,9 +18,9 @@ from examples.figures.drawing import COLOURS, reflectance_axes, sheet
 from examples.figures.light import Effort, Task
 from examples.figures.measured_people import People
 from examples.figures.report import Row
-from hylios.fit import USUAL, Fit, fit_spectrum
-from hylios.pictures import write_figure
-from hylios.specimen import SPECIMENS
+from hylios.lab.fit import USUAL, Fit, fit_spectrum
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import SPECIMENS
 from hylios.spectra import Figures, figures
 
 FIGURES = ("people",)

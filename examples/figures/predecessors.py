@@ -16,11 +16,11 @@ from examples.figures.drawing import plot, points, reflectance_axes, sheet
 from examples.figures.light import RAYS_AS_LONG, Curve, Effort, Task, Tick, noise_free, walked
 from examples.figures.measured_people import People
 from examples.figures.report import Row, agreement
-from hylios.colour import difference, srgb
-from hylios.colour import swatch as colour_of_band
-from hylios.pictures import write_figure
-from hylios.predecessors import biospec, donner_jensen
-from hylios.specimen import SPECIMENS
+from hylios.lab.colour import difference, srgb
+from hylios.lab.colour import swatch as colour_of_band
+from hylios.lab.pictures import write_figure
+from hylios.lab.predecessors import biospec, donner_jensen
+from hylios.skin.specimen import SPECIMENS
 from hylios.transport.counting import counted
 from hylios.transport.simulate import share_error
 from hylios.transport.walk import SUBSURFACE, SURFACE

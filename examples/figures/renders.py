@@ -21,16 +21,16 @@ from examples.figures.light import Effort, Task, Tick
 from examples.figures.shots import UV, Shot, Window
 from examples.figures.tans import Schedule, history
 from hylios.adding import colours
-from hylios.colour import TINTS, difference, lab, linear_of_srgb, srgb
+from hylios.burley import burley_width
 from hylios.errors import InputError
-from hylios.pictures import write_figure
-from hylios.profile import burley_width
+from hylios.lab.colour import TINTS, difference, lab, linear_of_srgb, srgb
+from hylios.lab.pictures import write_figure
 from hylios.quadrature import MOST
 from hylios.skin import Skin
 from hylios.table import SkinTable
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import build
+from lut_builder.assemble import build
 from lut_builder.exr import write_table
 from lut_builder.settings import Settings
 
@@ -133,11 +133,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
             return rendered(wanted, Path(folder), effort, tick)
 
     skins = len(shots.skins())
-    return {
-        "renders": Task(
-            work, skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted)
-        )
-    }
+    return {"renders": Task(work, skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted))}
 
 
 def rendered(

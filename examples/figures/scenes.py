@@ -21,8 +21,8 @@ from examples.demo import render, scene, swimsuit
 from examples.demo.body import EYES_CLOSED, BodyUnavailableError, fetch_wheel, read_body
 from examples.figures import shots
 from examples.figures.shots import LAST_DAY, Schedule, Shot
-from hylios.colour import srgb
-from hylios.shell import run
+from hylios.commands.shell import run
+from hylios.lab.colour import srgb
 
 FRAMES_PER_DAY = 4
 SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.30, 0.65

@@ -27,8 +27,8 @@ from examples.figures.light import (
     walked,
 )
 from examples.figures.report import Row, agreement, claim, relative
-from hylios.pictures import write_figure
-from hylios.specimen import SPECIMENS, Specimen, with_values
+from hylios.lab.pictures import write_figure
+from hylios.skin.specimen import SPECIMENS, Specimen, with_values
 
 FIGURES = (*(f"6.{number}" for number in range(13, 19)), "table 6.3")
 

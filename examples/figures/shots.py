@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from examples.figures import tans
 from examples.figures.tans import MILLER_SKIN, Schedule
 from hylios.skin import Skin, skin
-from hylios.specimen import SPECIMENS, Specimen
+from hylios.skin.specimen import SPECIMENS, Specimen
 
 SCHEDULES = tuple(tuple(tans.SCHEDULES[name]) for name in ("19 SED", "29 SED", "42 SED"))
 """Of the upper, middle and lower patch: those of figure 6.23."""

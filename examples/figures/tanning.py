@@ -25,8 +25,8 @@ from examples.figures.tans import (
     history,
     rising,
 )
-from hylios.colour import lab
-from hylios.pictures import write_figure
+from hylios.lab.colour import lab
+from hylios.lab.pictures import write_figure
 from hylios.skin import Skin
 from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory, simulate
 

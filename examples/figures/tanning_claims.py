@@ -20,10 +20,10 @@ from examples.figures.tans import (
     single_doses,
 )
 from hylios.adding import spectrum
-from hylios.colour import difference, lab
-from hylios.pictures import write_figure
+from hylios.lab.colour import difference, lab
+from hylios.lab.pictures import write_figure
 from hylios.skin import Skin
-from hylios.specimen import tanned
+from hylios.skin.specimen import tanned
 from hylios.tanning import TanningHistory
 
 FIGURES = ("tanning",)

@@ -12,7 +12,7 @@ import numpy as np
 from hylios.adding import spectrum
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin, skin
-from hylios.specimen import SPECIMENS, Specimen, parameters
+from hylios.skin.specimen import SPECIMENS, Specimen, parameters
 from hylios.tanning import Exposures, TanningHistory, simulate
 
 Schedule = Sequence[tuple[float, float]]

@@ -18,9 +18,9 @@ from examples.simplifications.edge import Edge, tan_line
 from examples.simplifications.light import stacks, walk_seconds
 from examples.simplifications.measures import Case, Effort, Row
 from examples.simplifications.quadrature import gauss
+from hylios.commands.shell import run
 from hylios.quadrature import skin_quadrature
-from hylios.shell import run
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 from hylios.transport.simulate import Spectrum, spectrum
 from lut_builder.settings import BANDS_NM
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from examples.simplifications.skins import DAYS, tan
-from hylios import colour
+from hylios.lab import colour
 from hylios.quadrature import Quadrature
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectrum
 
 FURTHEST = 15.0

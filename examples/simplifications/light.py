@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from examples.simplifications.variants import Variant
-from hylios import colour
 from hylios.adding import solve
-from hylios.specimen import Specimen
+from hylios.lab import colour
+from hylios.skin.specimen import Specimen
 from hylios.tissue import Stack
 from hylios.transport.simulate import count
 from hylios.transport.survival import with_survival

@@ -16,9 +16,9 @@ from examples.simplifications.light import (
 )
 from examples.simplifications.skins import measured
 from examples.simplifications.variants import Variant, whole
-from hylios import colour
+from hylios.lab import colour
 from hylios.quadrature import Quadrature
-from hylios.specimen import SPECIMENS, Specimen
+from hylios.skin.specimen import SPECIMENS, Specimen
 
 EVEN = np.arange(400.0, 701.0, 5.0)
 """Wavelengths of the full model, nm."""

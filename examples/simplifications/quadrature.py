@@ -15,7 +15,7 @@ import hylios
 from examples.simplifications.light import GRID, metrics, reflectances
 from examples.simplifications.skins import random_skins
 from examples.simplifications.variants import whole
-from hylios import colour
+from hylios.lab import colour
 from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Colours, Quadrature, choose
 
 FIRST, LAST = 400.0, 700.0

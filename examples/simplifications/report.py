@@ -12,10 +12,10 @@ from examples.simplifications import text
 from examples.simplifications.edge import DARKEST_DAY, JUST_VISIBLE, Edge
 from examples.simplifications.measures import RAYS, Row
 from examples.simplifications.skins import DAYS, DOSE
-from hylios import colour
-from hylios.profile import burley_width
+from hylios.burley import burley_width
+from hylios.lab import colour
 from hylios.quadrature import Quadrature
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 from hylios.transport.simulate import DISTANCE_EDGES, Spectrum
 from lut_builder.settings import BANDS_NM
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from hylios.skin import skin
-from hylios.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
 from hylios.tanning import Exposures, simulate
 
 DOSE = 30.0  # SED, on day 0

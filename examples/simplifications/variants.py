@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from hylios.specimen import EPIDERMIS, Specimen
+from hylios.skin.specimen import EPIDERMIS, Specimen
 from hylios.tissue import Stack, stack
 
 Variant = Callable[[Specimen, float], Stack]

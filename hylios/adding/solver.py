@@ -14,8 +14,8 @@ from hylios.adding.optics import Optics, Pattern, figures, is_medium, optics, pa
 from hylios.adding.scattering import once_per_traversal, response, stacked
 from hylios.adding.surface import fresnel
 from hylios.adding.survival import survival_in_melanosome
-from hylios.adding.threads import one_thread
 from hylios.errors import InputError, require_range, require_whole
+from hylios.threads import one_thread
 from hylios.tissue import Layer, Stack
 
 NODES = 22

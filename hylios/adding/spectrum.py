@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.adding.solver import NODES, Reflectance, solve
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures, figures, require_wavelengths
 from hylios.tissue import stack
 

@@ -4,13 +4,13 @@ import argparse
 
 import numpy as np
 
-from hylios.commands.exposures import (
+from hylios.commands.dose_arguments import (
     add_chosen_arguments,
     add_exposure_arguments,
     chosen,
     chosen_doses,
 )
-from hylios.shell import print_table
+from hylios.commands.shell import print_table
 
 DESCRIPTION = """\
 One line for each hour of the tanning model and each exposure: the dose as a meter shows it, as it

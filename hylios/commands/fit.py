@@ -6,11 +6,17 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.commands.shell import (
+    add_skin_arguments,
+    chosen_skin,
+    note_estimates,
+    number,
+    wavelength_range,
+)
 from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
-from hylios.shell import add_skin_arguments, chosen_skin, note_estimates, number, wavelength_range
-from hylios.specimen_file import specimen_toml
-from hylios.spectrum_file import read_spectrum
+from hylios.readers.spectrum import read_spectrum
+from hylios.skin.specimen_file import specimen_toml
 
 
 def add_to(commands) -> None:
@@ -41,7 +47,7 @@ def add_to(commands) -> None:
 
 def run(asked: argparse.Namespace) -> None:
     """Fit and print."""
-    from hylios.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
+    from hylios.lab.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
 
     start, known, chosen = chosen_skin(asked)
     light = {

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from hylios.files import require_target
-from hylios.spectrum_file import read_spectra
+from hylios.readers.spectrum import read_spectra
 
 
 def add_to(commands) -> None:
@@ -26,7 +26,7 @@ def run(asked: argparse.Namespace) -> None:
     require_target(asked.output, (".png", ".svg"), asked.force)
     spectra = read_spectra(asked.files)
 
-    from hylios.pictures import spectra_figure, write_figure  # matplotlib takes a second
+    from hylios.lab.pictures import spectra_figure, write_figure  # matplotlib takes a second
 
     write_figure(spectra_figure(spectra), asked.output)
     print(f"wrote {asked.output}: {', '.join(each.name for each in spectra)}")

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from hylios.shell import (
+from hylios.commands.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,

@@ -2,7 +2,7 @@
 
 import argparse
 
-from hylios.shell import (
+from hylios.commands.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,

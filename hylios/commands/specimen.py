@@ -4,11 +4,11 @@ import argparse
 import textwrap
 from dataclasses import MISSING
 
-from hylios.phototypes import PHOTOTYPES, specimens
-from hylios.physiology import PHYSIOLOGY
-from hylios.shell import add_specimen_arguments, chosen_specimen
-from hylios.specimen import ARRANGEMENTS, Specimen, parameters
-from hylios.specimen_file import specimen_toml
+from hylios.commands.shell import add_specimen_arguments, chosen_specimen
+from hylios.skin.phototypes import PHOTOTYPES, specimens
+from hylios.skin.physiology import PHYSIOLOGY
+from hylios.skin.specimen import ARRANGEMENTS, Specimen, parameters
+from hylios.skin.specimen_file import specimen_toml
 
 COLUMNS = ("parameter", "value", "unit", "physiological", "range", "value from", "meaning")
 WIDTH = 100
@@ -75,4 +75,4 @@ def _origin(specimen: Specimen, parameter) -> str:
         return f"table 6.2 {cited}"
     if value != getattr(specimens().get(specimen.name), parameter.name, None):
         return "given"
-    return "hylios/phototypes" if specimen.name in PHOTOTYPES else f"table 6.1 {cited}"
+    return "hylios/skin/phototypes" if specimen.name in PHOTOTYPES else f"table 6.1 {cited}"

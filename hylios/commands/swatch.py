@@ -5,16 +5,16 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.errors import InputError, require_range, require_whole
-from hylios.files import require_target
-from hylios.shell import (
+from hylios.commands.shell import (
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
     note_estimates,
     require_work,
 )
-from hylios.spectrum_file import NamedSpectrum, read_spectra
+from hylios.errors import InputError, require_range, require_whole
+from hylios.files import require_target
+from hylios.readers.spectrum import NamedSpectrum, read_spectra
 
 DESCRIPTION = """\
 One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.
@@ -49,8 +49,8 @@ def run(asked: argparse.Namespace) -> None:
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
     spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
 
-    from hylios.colour import srgb, swatch
-    from hylios.pictures import swatches, write_pixels
+    from hylios.lab.colour import srgb, swatch
+    from hylios.lab.pictures import swatches, write_pixels
 
     colours = srgb(
         np.array([swatch(each.wavelengths, each.reflectance, asked.band) for each in spectra])
@@ -64,7 +64,7 @@ def run(asked: argparse.Namespace) -> None:
 
 def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
     """The spectrum of the specimen asked for over the band."""
-    from hylios.colour import BANDS
+    from hylios.lab.colour import BANDS
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
     require_work(asked)

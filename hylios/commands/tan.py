@@ -2,13 +2,13 @@
 
 import argparse
 
-from hylios.commands.exposures import (
+from hylios.commands.dose_arguments import (
     add_chosen_arguments,
     add_exposure_arguments,
     chosen,
     chosen_doses,
 )
-from hylios.shell import print_table
+from hylios.commands.shell import print_table
 from hylios.tanning import simulate
 
 

@@ -5,10 +5,11 @@ which needs numpy and the standard library alone. `docs/table_format.md` describ
 """
 
 from hylios.table.axes import STATE_NAMES, StateAxes
-from hylios.table.dynamics import described_dynamics, melanin_dynamics
 from hylios.table.file import read_table
 from hylios.table.interpolation import INTERPOLATIONS
-from hylios.table.layout import (
+from hylios.table.planes import MEANINGS, PLANES
+from hylios.table.provenance import described_dynamics, melanin_dynamics
+from hylios.table.schema import (
     CHECKSUM_ATTRIBUTE,
     FORMAT,
     FORMAT_VERSION,
@@ -17,7 +18,6 @@ from hylios.table.layout import (
     from_stored,
     to_stored,
 )
-from hylios.table.planes import MEANINGS, PLANES
 from hylios.table.table import SkinTable
 
 __all__ = [

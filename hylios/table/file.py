@@ -4,8 +4,8 @@ import os
 from pathlib import Path
 
 from hylios.errors import InputError
-from hylios.table.exr import Picture, parse
-from hylios.table.layout import (
+from hylios.table.exr_reader import Picture, parse
+from hylios.table.schema import (
     CHECKSUM_ATTRIBUTE,
     FORMAT,
     HEADER_ATTRIBUTE,

@@ -23,7 +23,7 @@ class Exposures:
         body that different shares of the light reach.
     thickening_doses : (..., E) float array, optional
         Dose in SED as it counts for the thickness, where the light's spectrum has it differ
-        (`hylios.ultraviolet`); the same as `doses` by default.
+        (`hylios.sun`); the same as `doses` by default.
 
     Raises
     ------

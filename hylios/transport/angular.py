@@ -32,7 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import require_whole
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack
 from hylios.transport.counting import counted, skin_key, skin_stack

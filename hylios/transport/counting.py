@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from hylios.errors import require_whole
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack, stack
 from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, thread_count, trace

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hylios.burley import burley_share_within, burley_width, burley_width_error
 from hylios.errors import InputError, require_range, require_whole
-from hylios.profile import burley_share_within, burley_width, burley_width_error
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures
 from hylios.tissue import Stack
 from hylios.transport.counting import counted, skin_key, skin_stack
@@ -70,7 +70,7 @@ class RadialExitance:
 
     @property
     def burley_width(self) -> float:
-        """Width d in mm of the Burley profile nearest to R (`hylios.profile.burley_width`).
+        """Width d in mm of the Burley profile nearest to R (`hylios.burley.burley_width`).
 
         Raises
         ------

@@ -18,7 +18,7 @@ import numpy as np
 
 from hylios.adding.melanosomes import encounters
 from hylios.errors import InputError, require_range
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures, figures, require_wavelengths
 from hylios.tissue import Layer, Stack, stack
 from hylios.transport.counting import skin_key
@@ -209,7 +209,7 @@ def skin_profiles(
     known: Figures | None = None,
     chosen: Mapping[str, str] | None = None,
 ) -> list[Profiles]:
-    """Profiles of a specimen's tanning states (`hylios.specimen.tanned`) at each wavelength in nm.
+    """Profiles of a specimen's tanning states (`Skin.tanned`) at each wavelength in nm.
 
     Parameters and errors as in `profiles` and `hylios.transport.simulate.spectrum`. A wavelength's
     result does not depend on which others are asked for.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import require_range, require_whole
-from hylios.specimen import Specimen
+from hylios.skin.specimen import Specimen
 from hylios.spectra import Figures, figures, require_wavelengths
 from hylios.tissue import ABSORBERS, PARTS, Stack, absorbers, stack
 from hylios.transport.generator import stream

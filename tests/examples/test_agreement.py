@@ -12,7 +12,7 @@ import pytest
 
 from examples.agreement import MOST_RMS, TANNED, Pair, agreement, compared, read, specimens, written
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 
 PAIR = Pair("S3", "", 500.0, 1000, 1, 0.4, 3e-4, 0.4004)
 RAYS, WAVELENGTHS = 30_000, np.array([250.0, 320.0, 420.0, 545.0, 700.0, 1200.0])

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from examples.demo import body, colours, scene, swimsuit
-from hylios import colour
+from hylios.lab import colour
 
 OBJ = """
 v 0 0 0

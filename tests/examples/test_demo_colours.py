@@ -7,7 +7,7 @@ import pytest
 
 from examples.demo import colours, swimsuit
 from examples.demo.render import Light
-from hylios import colour
+from hylios.lab import colour
 from hylios.table import SkinTable, StateAxes
 from hylios.tanning import PIGMENTATIONS
 

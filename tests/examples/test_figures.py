@@ -10,7 +10,7 @@ from examples.figures import __main__ as program
 from examples.figures import absorbers, compression, melanin_forms, report, sensitivity
 from examples.figures.light import RANGE, Curve, Effort, noisy
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 from hylios.spectra import figures
 
 RANDOM = np.random.default_rng(5)

@@ -14,8 +14,8 @@ from examples.demo import render, scene
 from examples.figures import renders, scenes, shots
 from examples.figures.light import Effort
 from examples.figures.renders import Panel, Result
-from hylios.colour import lab
-from hylios.specimen import SPECIMENS
+from hylios.lab.colour import lab
+from hylios.skin.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS
 from lut_builder.exr import write_table
 from lut_builder.settings import Settings

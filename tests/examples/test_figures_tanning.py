@@ -7,8 +7,8 @@ from examples.figures import __main__ as program
 from examples.figures import tanning, tanning_claims, tans
 from examples.figures.light import Effort
 from hylios.adding import spectrum
-from hylios.colour import lab, linear_rec709
-from hylios.specimen import SPECIMENS, parameters, tanned
+from hylios.lab.colour import lab, linear_rec709
+from hylios.skin.specimen import SPECIMENS, parameters, tanned
 from hylios.tanning import TanningHistory
 
 SKINS = tuple(tans.SKINS)

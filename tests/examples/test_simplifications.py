@@ -14,9 +14,9 @@ import pytest
 
 from examples.simplifications import __main__ as simplifications
 from examples.simplifications import edge, light, measures, report, skins, variants
-from hylios import colour
+from hylios.lab import colour
 from hylios.quadrature import Quadrature
-from hylios.specimen import EPIDERMIS, SPECIMENS
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS
 from hylios.transport.simulate import DISTANCE_EDGES, Spectrum
 
 ROOT = Path(__file__).parent.parent.parent

@@ -13,7 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from hylios.errors import InputError
-from hylios.specimen import ARRANGEMENTS, EPIDERMIS, SPECIMENS, parameters
+from hylios.skin.specimen import ARRANGEMENTS, EPIDERMIS, SPECIMENS, parameters
 from hylios.tissue import READINGS, Layer, Stack, readings, stack
 from hylios.transport import survival
 from hylios.transport.simulate import DISTANCE_EDGES, count, spectrum, trace

@@ -9,10 +9,10 @@ import pytest
 from examples.simplifications.light import GRID, metrics, reflectances
 from examples.simplifications.quadrature import gauss, skin_colours
 from examples.simplifications.variants import whole
-from hylios import colour
 from hylios.errors import InputError
+from hylios.lab import colour
 from hylios.quadrature import FEWEST, MOST, Colours, choose, skin_quadrature
-from hylios.specimen import EPIDERMIS, SPECIMENS
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS
 
 COUNTS = range(FEWEST, MOST + 1)
 

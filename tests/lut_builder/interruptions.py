@@ -30,7 +30,7 @@ def killed_and_resumed(command, target, kills, seed, pause):
     command : list of str
         It resumes unfinished work.
     target : Path
-        Of the file that it makes; units are in the folder that `lut_builder.work.unfinished` names.
+        Of the file that it makes; units are in the folder of `lut_builder.jobs.work.unfinished`.
     pause : float
         About the time of a unit in seconds.
 

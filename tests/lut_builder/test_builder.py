@@ -12,11 +12,11 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813
 import pytest
 
+from hylios.commands.shell import chosen_tanning_skin
 from hylios.errors import InputError
-from hylios.phototypes import phototype
-from hylios.shell import chosen_tanning_skin
 from hylios.skin import skin
-from hylios.specimen import SPECIMENS
+from hylios.skin.phototypes import phototype
+from hylios.skin.specimen import SPECIMENS
 from hylios.table import (
     HEADER_ATTRIBUTE,
     SkinTable,
@@ -27,12 +27,12 @@ from hylios.table import (
     to_stored,
 )
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
-from lut_builder.build import build
+from lut_builder.assemble import build
+from lut_builder.axes import choose_axes, reachable_states, untanned_state
 from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import _parser, main
 from lut_builder.exr import write_table
 from lut_builder.settings import PRESETS, Settings
-from lut_builder.states import choose_axes, reachable_states, untanned_state
 
 TINY = Settings(knots=(3, 2), colour_wavelengths=4, profile_error=0.05, profile_wavelengths=4)
 

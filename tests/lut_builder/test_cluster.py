@@ -16,9 +16,9 @@ from toy_work import command, die, fail, walks
 
 import hylios
 from hylios.errors import InputError
-from lut_builder import cluster
-from lut_builder.cluster import on_cluster
-from lut_builder.work import Unit, done, in_threads, performed, software_digest, unpacked
+from lut_builder.jobs import cluster
+from lut_builder.jobs.cluster import on_cluster
+from lut_builder.jobs.work import Unit, done, in_threads, performed, software_digest, unpacked
 
 pytest.importorskip("distributed")
 

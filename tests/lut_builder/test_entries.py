@@ -6,20 +6,20 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
+from hylios.adding.absorptance import tabulated
 from hylios.adding.spectrum import spectrum as solved
-from hylios.adding.ultraviolet import tabulated
-from hylios.phototypes import phototype
-from hylios.profile import burley_width
+from hylios.burley import burley_width
 from hylios.quadrature import skin_quadrature
 from hylios.skin import skin
-from hylios.specimen import SPECIMENS
+from hylios.skin.phototypes import phototype
+from hylios.skin.specimen import SPECIMENS
 from hylios.table import from_stored, read_table, to_stored
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.build import build
+from lut_builder.assemble import build
 from lut_builder.check import check, settings_of, skin_of
 from lut_builder.cli import main
-from lut_builder.pieces import ANGLE
+from lut_builder.request import ANGLE
 from lut_builder.schedule import read_schedule
 from lut_builder.settings import PRESETS, Settings
 

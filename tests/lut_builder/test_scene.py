@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from hylios.adding import spectra
-from hylios.colour import difference
-from hylios.phototypes import phototype
+from hylios.lab.colour import difference
 from hylios.quadrature import skin_quadrature
+from hylios.skin.phototypes import phototype
 from hylios.table import from_stored, to_stored
 from hylios.tanning import Exposures
-from lut_builder.build import build, requested
+from lut_builder.assemble import build, requested
+from lut_builder.axes import choose_axes, reachable_states, untanned_state
 from lut_builder.check import check
-from lut_builder.pieces import ANGLE, pieces
-from lut_builder.scene import NEAR, farthest, laid_over
+from lut_builder.request import ANGLE, pieces
+from lut_builder.scene_axes import NEAR, farthest, laid_over
 from lut_builder.schedule import reached_states
 from lut_builder.settings import Settings
-from lut_builder.states import choose_axes, reachable_states, untanned_state
 
 SKINS = {name: phototype(name).skin for name in ("I", "III", "VI")}
 COLOURS = Settings(knots=(9, 3, 3, 2), colour_wavelengths=4, bands=(), profile_error=0.0)

@@ -13,7 +13,7 @@ import pytest
 from mutations import HEADER, mutated
 
 from hylios.errors import InputError
-from hylios.table import MEANINGS, SkinTable, StateAxes, exr, read_table
+from hylios.table import MEANINGS, SkinTable, StateAxes, exr_reader, read_table
 from lut_builder.exr import write_table
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "table_format.md"
@@ -75,7 +75,7 @@ def test_channels_are_those_that_openimageio_reads(path):
     """Bit for bit, by names: OpenImageIO's own order of channels is another."""
     image = oiio.ImageBuf(str(path))
     expected = np.asarray(image.get_pixels(oiio.FLOAT))
-    read = exr.parse(path.read_bytes()).channels
+    read = exr_reader.parse(path.read_bytes()).channels
     assert set(read) == set(image.spec().channelnames)
     for number, name in enumerate(image.spec().channelnames):
         assert np.array_equal(read[name], expected[..., number])

@@ -10,15 +10,27 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from hylios.colour import difference, rec709_weights
 from hylios.errors import InputError
+from hylios.lab.colour import difference, rec709_weights
 from hylios.skin import skin
-from hylios.specimen import SPECIMENS
+from hylios.skin.specimen import SPECIMENS
 from hylios.table import read_table
-from lut_builder.build import build
+from lut_builder.assemble import build
 from lut_builder.check import FINE, settings_of
 from lut_builder.cli import main
-from lut_builder.front import (
+from lut_builder.settings import PRESETS, Settings
+from lut_builder.trade.measure import (
+    FineProfiles,
+    Run,
+    between_knots,
+    component_errors,
+    lightness_lost,
+    profile_runs,
+    reflectances,
+    regions,
+    share_errors,
+)
+from lut_builder.trade.pareto import (
     Point,
     best,
     cheapest,
@@ -30,19 +42,7 @@ from lut_builder.front import (
     worst,
     write_points,
 )
-from lut_builder.measuring import (
-    FineProfiles,
-    Run,
-    between_knots,
-    component_errors,
-    lightness_lost,
-    profile_runs,
-    reflectances,
-    regions,
-    share_errors,
-)
-from lut_builder.settings import PRESETS, Settings
-from lut_builder.trade import BROAD, QUICK, completed, measure, noise_share
+from lut_builder.trade.trade import BROAD, QUICK, completed, measure, noise_share
 
 S3 = skin(SPECIMENS["S3"])
 

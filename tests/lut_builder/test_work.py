@@ -18,8 +18,8 @@ from toy_work import command, die, fail, main, walk, walks
 
 import hylios
 from hylios.errors import InputError
-from hylios.specimen import SPECIMENS
-from lut_builder.work import (
+from hylios.skin.specimen import SPECIMENS
+from lut_builder.jobs.work import (
     Unit,
     done,
     in_processes,
@@ -182,7 +182,7 @@ def test_different_units_have_different_digests():
 def test_a_digest_is_the_same_in_every_process():
     """Sets of texts have another order in each, and equal texts may be one object or two."""
     code = (
-        "from lut_builder.work import *; from toy_work import walk; import numpy as np\n"
+        "from lut_builder.jobs.work import *; from toy_work import walk; import numpy as np\n"
         "names = frozenset('abcdefgh'), {'x': np.arange(3), 'y': 'a' * 3}, ('aaa', 1e-300)\n"
         "print(unit_digest(Unit('a', walk, names), '1'), software_digest())"
     )
@@ -221,7 +221,7 @@ def test_a_changed_source_changes_the_digest_of_the_software(tmp_path):
                 copy.write_bytes(path.read_bytes())
 
     def digest():
-        code = "from lut_builder.work import software_digest; print(software_digest())"
+        code = "from lut_builder.jobs.work import software_digest; print(software_digest())"
         told = subprocess.run(
             [sys.executable, "-c", code],
             cwd=tmp_path,

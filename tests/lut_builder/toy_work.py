@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.commands.shell import run
 from hylios.errors import InputError
-from hylios.shell import run
-from lut_builder.cluster import on_cluster
-from lut_builder.work import Unit, done, in_processes, in_threads, software_digest, unfinished
+from lut_builder.jobs.cluster import on_cluster
+from lut_builder.jobs.work import Unit, done, in_processes, in_threads, software_digest, unfinished
 
 
 def walk(seed, length, pause=0.0):

@@ -11,47 +11,22 @@ STANDARD = set(sys.stdlib_module_names)
 
 ALLOWED = {
     "hylios": {"numpy"},
-    "hylios/adding": {"numpy"},
-    "hylios/colour.py": {"numpy", "colour"},
-    "hylios/predecessors": {"numpy", "numba", "scipy"},
-    "hylios/pictures.py": {"numpy", "matplotlib"},
-    "hylios/fit.py": {"numpy", "scipy", "threadpoolctl"},
-    "hylios/table": {"numpy"},
+    "hylios/lab/colour.py": {"numpy", "colour"},
+    "hylios/lab/predecessors": {"numpy", "numba", "scipy"},
+    "hylios/lab/pictures.py": {"numpy", "matplotlib"},
+    "hylios/lab/fit.py": {"numpy", "scipy", "threadpoolctl"},
     "hylios/transport": {"numpy", "numba"},
-    "hylios/ultraviolet": {"numpy"},
     "lut_builder": {"numpy", "OpenImageIO", "threadpoolctl", "tqdm", "hylios"},
-    "lut_builder/cluster.py": {"distributed", "hylios"},
-    "lut_builder/scene.py": {"numpy", "scipy", "hylios"},
-    "lut_builder/trade_figure.py": {"numpy", "matplotlib", "hylios"},
+    "lut_builder/jobs/cluster.py": {"distributed", "hylios"},
+    "lut_builder/scene_axes.py": {"numpy", "scipy", "hylios"},
+    "lut_builder/trade/figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "wheel", "hylios"},
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
 
-LIGHT_ROOMS = (
-    "hylios/transport",
-    "hylios/commands",
-    "hylios/predecessors",
-    "hylios/fit.py",
-    "hylios/phototypes/fitting.py",
-)
-"""Rooms of `hylios` that may lead to numba or colour-science."""
-
-NUMPY_ONLY = (
-    "adding",
-    "errors",
-    "files",
-    "physiology",
-    "quadrature",
-    "skin",
-    "specimen",
-    "spectra",
-    "table",
-    "tanning",
-    "tissue",
-    "ultraviolet",
-)
-"""What of `hylios` the add-on may use: what its wheel carries."""
+NOT_CARRIED = ("lab", "transport", "commands")
+"""Rooms of `hylios` that a scene never needs; the add-on carries and may use all others."""
 
 
 def imported(path):
@@ -83,35 +58,21 @@ def test_imports_follow_the_arrows(path):
             assert name.split(".")[0] in allowed, f"{path.name} imports {name}"
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_numba_and_colour_stay_in_their_rooms(path):
-    """Importing specimens, tanning or tables never leads to numba or colour-science."""
-    inside = path.relative_to(ROOT).as_posix()
-    if inside.startswith("hylios/") and not inside.startswith(LIGHT_ROOMS):
-        for name, _ in imported(path):
-            assert not name.startswith(("hylios.transport", "hylios.colour")), f"{inside}: {name}"
+def is_carried(path):
+    parts = path.relative_to(ROOT).parts
+    return parts[0] == "hylios" and parts[1] not in NOT_CARRIED
 
 
 @pytest.mark.parametrize(
     "path",
-    [each for each in SOURCES if each.relative_to(ROOT).parts[1].removesuffix(".py") in NUMPY_ONLY],
-    ids=lambda path: path.name,
+    [path for path in SOURCES if is_carried(path) or "blender_addon" in path.parts],
+    ids=lambda path: str(path.relative_to(ROOT)),
 )
-def test_what_the_add_on_carries_needs_nothing_else_of_hylios(path):
+def test_what_a_scene_needs_leads_to_no_laboratory(path):
+    """No numba, no colour-science: what the add-on's wheel holds imports nothing else of hylios."""
     for name, _ in imported(path):
         if name.startswith("hylios."):
-            assert name.split(".")[1] in NUMPY_ONLY, f"{path.name} imports {name}"
-
-
-@pytest.mark.parametrize(
-    "path",
-    [each for each in SOURCES if "blender_addon" in each.parts],
-    ids=lambda path: path.name,
-)
-def test_the_add_on_uses_the_numpy_only_part_of_hylios(path):
-    for name, _ in imported(path):
-        if name.startswith("hylios."):
-            assert name.split(".")[1] in NUMPY_ONLY, f"{path.name} imports {name}"
+            assert name.split(".")[1] not in NOT_CARRIED, f"{path.name} imports {name}"
 
 
 def test_no_file_needs_the_workplace():

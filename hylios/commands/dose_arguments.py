@@ -1,0 +1,290 @@
+"""Exposures of a skin as the commands `tan` and `dose` take them."""
+
+import argparse
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from datetime import date
+from pathlib import Path
+
+import numpy as np
+
+from hylios.commands.shell import (
+    add_skin_arguments,
+    add_tanning_arguments,
+    chosen_skin,
+    chosen_tanning_skin,
+    note_estimates,
+    number,
+)
+from hylios.errors import InputError, require_range
+from hylios.readers.spectrum import read_columns
+from hylios.skin import Skin
+from hylios.spectra import Figures
+from hylios.sun.action_spectra import FIRST_NM, LAST_NM, MELANOGENESIS, Absorptance
+from hylios.sun.doses import (
+    Doses,
+    joined,
+    of_sed,
+    of_spectrum,
+    of_sun,
+    of_uv_index,
+)
+from hylios.sun.protection import (
+    NOMINAL_AMOUNT,
+    Protection,
+    clothing,
+    layered,
+    sunscreen,
+    sunscreen_film,
+)
+from hylios.sun.sky import ClearSky
+from hylios.tanning import (
+    TYPICAL_PIGMENTATION,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+)
+from hylios.tissue import FIGURES
+
+USUAL_SKY = ClearSky()
+SKY = {
+    "ozone": ("DU", "ozone column"),
+    "altitude": ("M", "over the sea"),
+    "aerosol": ("DEPTH", "optical depth of the aerosol at 500 nm"),
+    "albedo": ("SHARE", "of the ground in the ultraviolet, snow 0.8"),
+}
+"""Options that say what the air is like: `ClearSky`'s names, with their units and meaning."""
+
+EXPOSURES = """\
+Exposures of all kinds can be given together, each repeatedly; hours count from the beginning. Doses
+in SED, MMD or by UV index act as they are. Those of the sun or a spectrum are weighed by action
+spectra and the specimen's absorptance; the action spectrum of melanogenesis is PROVISIONAL. The sun
+shines from a clear sky on level skin.
+"""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What the commands need of a skin that tans."""
+
+    skin: Skin
+    known: Figures
+    readings: Mapping[str, str]
+
+
+def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen` reads."""
+    add_tanning_arguments(parser)
+    add_skin_arguments(parser)
+
+
+def chosen(asked: argparse.Namespace) -> Chosen:
+    """The skin that the arguments ask for, and the spectral figures and readings.
+
+    Where nothing is said of the specimen, minimal doses are those typical of the tanning set.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be used.
+    """
+    _, known, decided = chosen_skin(asked)
+    skin = chosen_tanning_skin(asked)
+    if asked.skin is None and asked.specimen is None and not asked.set:
+        typical = TYPICAL_PIGMENTATION[skin.pigmentation]
+        mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
+        med = minimal_erythema_dose(typical) if asked.med is None else asked.med
+        skin = replace(skin, mmd=mmd, med=med)
+    return Chosen(skin, known, decided)
+
+
+def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen_doses` reads."""
+    exposures = parser.add_argument_group("exposures", EXPOSURES)
+    for option, metavar, help_text in (
+        ("--dose", "HOUR:AMOUNT", "amount in SED, as 30 or 30SED, or in the skin's MMD, as 2.5MMD"),
+        ("--uv-index", "HOUR:INDEX:HOURS", "hours at a UV index; one hour at 1 is 0.9 SED"),
+        ("--spectrum", "HOUR:FILE:SECONDS", "CSV: wavelength_nm,irradiance_w_m2_nm"),
+        ("--sun", "DATE:FROM-TO", "hours of a day such as 2025-06-21:10-16:30; see --latitude"),
+    ):
+        exposures.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+    sun = parser.add_argument_group("sun")
+    sun.add_argument("--start", metavar="DATE", help="hour 0 is its midnight (default: first sun)")
+    for option, metavar, help_text in (
+        ("--latitude", "DEGREES", "north positive; hours are then local solar time, noon at 12"),
+        ("--longitude", "DEGREES", "east positive; hours are then a clock's, see --utc-offset"),
+        ("--utc-offset", "HOURS", "of that clock, with daylight saving (default 0)"),
+    ):
+        sun.add_argument(option, type=float, metavar=metavar, help=help_text)
+    for name, (metavar, help_text) in SKY.items():
+        usual = f"{help_text} ({getattr(USUAL_SKY, name):g})"
+        sun.add_argument(f"--{name}", type=float, metavar=metavar, help=usual)
+    over = parser.add_argument_group("protection", "Over the skin at all exposures.")
+    over.add_argument("--spf", type=float, help="of a sunscreen at 2 mg/cm^2; grey")
+    over.add_argument(
+        "--sunscreen",
+        type=Path,
+        metavar="FILE",
+        help="CSV: wavelength_nm,transmittance (or absorbance) at 2 mg/cm^2, 290 to 400 nm",
+    )
+    over.add_argument(
+        "--sunscreen-amount", type=float, metavar="MG", help="mg/cm^2 (2); people apply 0.5 to 1"
+    )
+    over.add_argument("--upf", type=float, help="of cloth; grey")
+
+
+def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
+    """The doses that the arguments ask for; says on standard error which figures are estimates.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be used.
+    """
+    over = _protection(asked)
+    parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in asked.dose]
+    parts += [of_uv_index(*_uv_index(text), over) for text in asked.uv_index]
+    _require_place(asked)
+    if asked.sun or asked.spectrum:
+        from hylios.adding.absorptance import tabulated  # the light model: only for a spectrum
+
+        absorptance = tabulated(of.skin.specimen, known=of.known, chosen=of.readings)
+        parts += [
+            of_spectrum(*_spectrum(text), absorptance, over, of.known) for text in asked.spectrum
+        ]
+        parts += _of_sun(asked, absorptance, over, of.known)
+    found = joined(parts)
+    found.exposures()  # whatever cannot be used is refused before anything is said
+    if asked.sun or asked.spectrum:
+        light = np.arange(FIRST_NM, LAST_NM + 1.0)
+        note_estimates(of.known, light, (*FIGURES, MELANOGENESIS))
+    return found
+
+
+def _require_place(asked: argparse.Namespace) -> None:
+    """Raise InputError where options of the sun are missing, or there without it."""
+    if not asked.sun:
+        for option in ("start", "latitude", "longitude", "utc_offset", *SKY):
+            if getattr(asked, option) is not None:
+                raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
+    elif asked.latitude is None:
+        raise InputError("--sun needs --latitude, in degrees, north positive.")
+    elif asked.utc_offset is not None and asked.longitude is None:
+        raise InputError("--utc-offset is given without --longitude.")
+
+
+def _of_sun(
+    asked: argparse.Namespace, absorptance: Absorptance, over: Protection, known: Figures
+) -> list[Doses]:
+    """The doses of each `--sun`."""
+    suns = [_sun(text) for text in asked.sun]
+    start = _date(asked.start) if asked.start else min((each[0] for each in suns), default=None)
+    air = {name: getattr(asked, name) for name in SKY}
+    sky = ClearSky(**{name: value for name, value in air.items() if value is not None})
+    return [
+        of_sun(
+            *each,
+            asked.latitude,
+            absorptance,
+            start=start,
+            longitude=asked.longitude,
+            utc_offset=asked.utc_offset or 0.0,
+            sky=sky,
+            protection=over,
+            known=known,
+        )
+        for each in suns
+    ]
+
+
+def _protection(asked: argparse.Namespace) -> Protection:
+    amount = NOMINAL_AMOUNT if asked.sunscreen_amount is None else asked.sunscreen_amount
+    layers = []
+    if asked.spf is not None and asked.sunscreen is not None:
+        raise InputError("a sunscreen is given as --spf and as --sunscreen; give only one.")
+    if asked.spf is not None:
+        layers.append(sunscreen(asked.spf, amount))
+    elif asked.sunscreen is not None:
+        film = sunscreen_film(*_transmittance(asked.sunscreen), amount)
+        passed = film.of_sunlight()
+        spf = f"{1.0 / passed:.3g}" if passed > 0.0 else "infinite"
+        print(f"note: {asked.sunscreen} at {amount:g} mg/cm^2 is an SPF of {spf}", file=sys.stderr)
+        layers.append(film)
+    elif asked.sunscreen_amount is not None:
+        raise InputError("--sunscreen-amount is given without --spf or --sunscreen.")
+    if asked.upf is not None:
+        layers.append(clothing(asked.upf))
+    return layered(layers)
+
+
+def _transmittance(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths and transmittance of a sunscreen's file."""
+    table = read_columns(path, (), ("transmittance", "absorbance"))
+    if "transmittance" in table:
+        return table["wavelength_nm"], table["transmittance"]
+    if "absorbance" in table:
+        with np.errstate(over="ignore"):
+            return table["wavelength_nm"], 10.0 ** -table["absorbance"]
+    raise InputError(f"{path} has no column transmittance; a sunscreen needs it, or absorbance.")
+
+
+def _parts(text: str, count: int, what: str, expected: str) -> list[str]:
+    parts = text.split(":")
+    if len(parts) < count:
+        raise InputError(f"{what} is {text!r}; expected {expected}.")
+    return [parts[0], ":".join(parts[1 : len(parts) - count + 2]), *parts[len(parts) - count + 2 :]]
+
+
+def _dose(text: str, mmd: float) -> tuple[float, float]:
+    """Hour and SED of HOUR:AMOUNT."""
+    hour, amount = _parts(text, 2, "a dose", "HOUR:SED, such as 0:30, or HOUR:MULTIPLE and MMD")
+    unit = mmd if amount.upper().endswith("MMD") else 1.0
+    if amount.upper().endswith(("MMD", "SED")):
+        amount = amount[:-3]
+    return number(hour, "hour of a dose"), unit * number(amount, "dose")
+
+
+def _uv_index(text: str) -> tuple[float, float, float]:
+    """Hour, index and duration of HOUR:INDEX:HOURS."""
+    hour, index, duration = _parts(text, 3, "an exposure by UV index", "HOUR:INDEX:HOURS")
+    return (
+        number(hour, "hour of a dose"),
+        number(index, "UV index"),
+        number(duration, "duration"),
+    )
+
+
+def _spectrum(text: str) -> tuple[float, np.ndarray, np.ndarray, float]:
+    """Hour, wavelengths, irradiance and seconds of HOUR:FILE:SECONDS."""
+    hour, path, seconds = _parts(text, 3, "a spectral exposure", "HOUR:FILE:SECONDS")
+    table = read_columns(Path(path), ("irradiance_w_m2_nm",))
+    return (
+        number(hour, "hour of a dose"),
+        table["wavelength_nm"],
+        table["irradiance_w_m2_nm"],
+        number(seconds, "time of exposure"),
+    )
+
+
+def _sun(text: str) -> tuple[date, float, float]:
+    """Day and hours of DATE:FROM-TO."""
+    day, hours = _parts(text, 2, "sun", "DATE:FROM-TO, such as 2025-06-21:10-16")
+    first, separator, last = hours.partition("-")
+    if not separator:
+        raise InputError(f"sun is {text!r}; expected DATE:FROM-TO, such as 2025-06-21:10-16.")
+    return _date(day), _clock(first), _clock(last)
+
+
+def _date(text: str) -> date:
+    try:
+        return date.fromisoformat(text)
+    except ValueError as error:
+        raise InputError(f"a date is {text!r}; expected YEAR-MONTH-DAY, as 2025-06-21.") from error
+
+
+def _clock(text: str) -> float:
+    """Hours of a text such as 10, 10.5 or 10:30."""
+    hour, separator, minute = text.partition(":")
+    minutes = number(minute, "minute of sun") if separator else 0.0
+    require_range("minute of sun", minutes, 0.0, 59.999)
+    return number(hour, "hour of sun") + minutes / 60.0

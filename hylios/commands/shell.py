@@ -1,0 +1,257 @@
+"""What the project's shell commands share: how they end, and how arguments are read."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError, require_whole
+from hylios.skin import Skin, skin
+from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
+from hylios.skin.specimen import Specimen, parameters, with_values
+from hylios.skin.specimen_file import read_specimen
+from hylios.spectra import Figures, estimates_within, figures, replaced
+from hylios.tanning import PIGMENTATIONS
+from hylios.tissue import FIGURES, readings
+
+MOST_WAVELENGTHS = 10_000
+USUAL_SPECIMEN = "S3"
+
+
+def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
+    """Run a command; bad input is one sentence and status 2, Ctrl-C status 130.
+
+    Of Ctrl-C one word is said, or what the command gave the KeyboardInterrupt to say.
+    """
+    try:
+        command(arguments)
+        sys.stdout.flush()
+    except InputError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as interrupt:
+        print(str(interrupt) or "cancelled", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        _discard_output()
+        return 1
+    except OSError as error:
+        print(f"error: {error}.", file=sys.stderr)
+        _discard_output()
+        return 2
+    return 0
+
+
+def _discard_output() -> None:
+    """Keep the interpreter from failing once more on output that has nowhere to go."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:
+    """Print columns of equal length as CSV with a header."""
+    print(",".join(columns))
+    for row in zip(*columns.values(), strict=True):
+        print(",".join(f"{value:.{digits}g}" for value in row))
+
+
+def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) -> None:
+    """Add the arguments that `chosen_specimen` reads.
+
+    `where` and `how` name the specimen's own argument and say more of it.
+    """
+    parser.add_argument(
+        *where,
+        help="S1 to S4 of table 6.1, skin type I to VI, or a file NAME.toml "
+        f"(default {USUAL_SPECIMEN})",
+        **how,
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a parameter of the specimen (hylios specimen lists them); repeatable",
+    )
+    parser.add_argument(
+        "--allow-unphysical",
+        action="store_true",
+        help="take parameters outside their physiological range",
+    )
+
+
+def note_estimates(known: Figures, wavelengths: np.ndarray, names: Sequence[str] = FIGURES) -> None:
+    """Say on standard error which spectral figures are estimates at some wavelength in nm."""
+    for line in estimates_within(known, names, wavelengths):
+        print(f"note: {line}", file=sys.stderr)
+
+
+def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen_skin` reads."""
+    add_specimen_arguments(parser, "--specimen")
+    for option, metavar, help_text in (
+        ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
+        ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
+    ):
+        parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+
+
+def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `chosen_tanning_skin` reads besides the specimen's."""
+    parser.add_argument(
+        "--skin",
+        choices=PHOTOTYPES,
+        help="skin type, in place of a specimen: that type's specimen, tanning as the type does",
+    )
+    parser.add_argument(
+        "--pigmentation",
+        choices=list(PIGMENTATIONS),
+        help="tanning set of table 6.4 (default: the specimen's or the type's)",
+    )
+    parser.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED (default: 3.2)")
+    parser.add_argument("--med", type=float, help="minimal erythema dose, SED (default: 3.1)")
+    parser.add_argument(
+        "--tanning",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="set a rate of the tanning set, such as basale_extra_production=0.0858; repeatable",
+    )
+
+
+def add_work_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of every simulation, which `require_work` checks."""
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--threads", type=int, help="default: all cores")
+
+
+def require_work(asked: argparse.Namespace) -> None:
+    """Raise InputError where the seed or the number of threads is out of range."""
+    require_whole("seed", asked.seed, 0, 2**32 - 1)
+    if asked.threads is not None:
+        require_whole("number of threads", asked.threads, 1, 1024)
+
+
+def chosen_specimen(asked: argparse.Namespace) -> Specimen:
+    """The specimen that the arguments ask for: one by name or a file's, with what is set.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it would not be physiological and that is not allowed.
+    """
+    numeric = {each.name for each in parameters()}
+    values = {
+        name: number(text, name) if name in numeric else text
+        for name, text in named_values(asked.set, "a setting").items()
+    }
+    name, unphysical = _specimen_name(asked), asked.allow_unphysical
+    if name.endswith(".toml"):
+        start = read_specimen(Path(name), allow_unphysical=unphysical)
+    else:
+        start = named_specimen(name)
+    return with_values(start, values, allow_unphysical=unphysical)
+
+
+def _specimen_name(asked: argparse.Namespace) -> str:
+    """Name or file of the specimen asked for, which `--skin` can name as well."""
+    type_of_skin = getattr(asked, "skin", None)
+    if type_of_skin is not None and asked.specimen is not None:
+        raise InputError(
+            f"both the skin type {type_of_skin} and the specimen {asked.specimen} are given; "
+            "allowed is one of them."
+        )
+    return type_of_skin or asked.specimen or USUAL_SPECIMEN
+
+
+def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state") -> Skin:
+    """The skin that the arguments ask for: `chosen_specimen`, and how it tans.
+
+    A skin type, be it named by `--skin`, as a specimen or in a specimen's file, tans as the type
+    does; `--pigmentation` puts a whole set in the place of that, `--tanning` single rates.
+
+    Raises
+    ------
+    InputError
+        If there is none, or a part of it cannot be used.
+    """
+    specimen = chosen_specimen(asked)
+    rates = {
+        rate: number(text, rate)
+        for rate, text in named_values(asked.tanning, "a rate of tanning").items()
+    }
+    pigmentation = asked.pigmentation
+    if specimen.name in PHOTOTYPES and pigmentation is None:
+        usual = phototype(specimen.name)
+        pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
+    return skin(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
+
+
+def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:
+    """The specimen, spectral figures and readings that the arguments ask for.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be used.
+    """
+    known = figures()
+    for name, path in named_values(asked.figure, "a figure").items():
+        known = replaced(known, name, Path(path))
+    chosen = readings(named_values(asked.reading, "a reading"))
+    return chosen_specimen(asked), known, chosen
+
+
+def wavelength_range(text: str) -> np.ndarray:
+    """Wavelengths in nm from FIRST:LAST:STEP, with both ends, or from a list a,b,c.
+
+    Raises
+    ------
+    InputError
+        If the text is neither, or gives more than `MOST_WAVELENGTHS`.
+    """
+    separator = ":" if ":" in text else ","
+    try:
+        numbers = [float(part) for part in text.split(separator)]
+    except ValueError:
+        numbers = []
+    if separator == "," and 0 < len(numbers) <= MOST_WAVELENGTHS:
+        return np.array(numbers)
+    if separator == ":" and len(numbers) == 3:
+        first, last, step = numbers
+        if step > 0 and first <= last and (last - first) / step < MOST_WAVELENGTHS:
+            return first + step * np.arange(int((last - first) / step + 1e-9) + 1)
+    raise InputError(
+        f"wavelengths are {text!r}; expected FIRST:LAST:STEP with a positive step, or a list of "
+        f"numbers, in nm, at most {MOST_WAVELENGTHS}."
+    )
+
+
+def named_values(pairs: list[str], what: str) -> dict[str, str]:
+    """A dictionary from texts NAME=VALUE.
+
+    Raises
+    ------
+    InputError
+        If a text has no equals sign.
+    """
+    for pair in pairs:
+        if "=" not in pair:
+            raise InputError(f"{what} is {pair!r}; expected NAME=VALUE.")
+    return dict(pair.split("=", 1) for pair in pairs)
+
+
+def number(text: str, name: str) -> float:
+    """A number from a text.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    try:
+        return float(text)
+    except ValueError as error:
+        raise InputError(f"{name} is {text!r}; expected a number.") from error

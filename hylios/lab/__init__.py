@@ -1,0 +1,1 @@
+"""What a laboratory needs and a scene never does: colour, fits, pictures, earlier models."""

@@ -1,0 +1,79 @@
+"""Pictures of spectra and colours with matplotlib; without a display and without its pyplot."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.image import imsave
+
+from hylios.files import written_beside
+from hylios.readers.spectrum import NamedSpectrum
+
+SIZE_INCHES, DOTS_PER_INCH = (8.0, 4.8), 150
+BAND_OPACITY = 0.25
+
+
+def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
+    """Reflectance over wavelength, one line each, with a band of one standard error each way."""
+    figure = Figure(figsize=SIZE_INCHES, dpi=DOTS_PER_INCH, layout="constrained")
+    axes = figure.add_subplot()
+    for number, each in enumerate(spectra):
+        marker = "o" if each.wavelengths.size == 1 else None
+        (line,) = axes.plot(
+            each.wavelengths, each.reflectance, label=f"spectrum {number}", marker=marker
+        )
+        if each.standard_error is not None:
+            axes.fill_between(
+                each.wavelengths,
+                each.reflectance - each.standard_error,
+                each.reflectance + each.standard_error,
+                color=line.get_color(),
+                alpha=BAND_OPACITY,
+                linewidth=0.0,
+            )
+    axes.set_xlabel("wavelength (nm)")
+    axes.set_ylabel("reflectance")
+    axes.set_ylim(bottom=0.0)
+    axes.margins(x=0.0)
+    axes.grid(alpha=0.3)
+    for text, each in zip(axes.legend().get_texts(), spectra, strict=True):
+        text.set_parse_math(False)  # a name may hold a $ or begin with _
+        text.set_text(each.name)
+    return figure
+
+
+def write_figure(figure: Figure, target: Path) -> None:
+    """Write a figure as PNG or SVG, by the ending of the target's name.
+
+    Equal figures give equal bytes with the same matplotlib: no date is written, and the names
+    inside an SVG do not depend on chance.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    kind = target.suffix.lower()[1:]
+    metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
+    with written_beside(target) as path, matplotlib.rc_context({"svg.hashsalt": "hylios"}):
+        figure.savefig(path, format=kind, metadata=metadata)
+
+
+def swatches(colours: np.ndarray, size: int) -> np.ndarray:
+    """Pixels (size, N size, 3), uint8, of squares side by side from sRGB (N, 3), 0 to 1."""
+    row = np.round(255.0 * np.asarray(colours)).astype(np.uint8)
+    return np.repeat(np.repeat(row, size, axis=0)[None], size, axis=0)
+
+
+def write_pixels(pixels: np.ndarray, target: Path) -> None:
+    """Write pixels (H, W, 3), uint8, as PNG.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    with written_beside(target) as path:
+        imsave(path, pixels, format="png")

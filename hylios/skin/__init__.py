@@ -1,0 +1,21 @@
+"""Everything the tanning model needs to know about one person's skin."""
+
+from hylios.skin.skin import (
+    LEAST_PIGMENTATION,
+    MOST_PIGMENTATION,
+    UNTANNED,
+    USUAL_PIGMENTATION,
+    Skin,
+    skin,
+    varied,
+)
+
+__all__ = [
+    "LEAST_PIGMENTATION",
+    "MOST_PIGMENTATION",
+    "UNTANNED",
+    "USUAL_PIGMENTATION",
+    "Skin",
+    "skin",
+    "varied",
+]

@@ -1,0 +1,151 @@
+"""Fitzpatrick's skin types I to VI: untanned specimens fitted to people, and how they tan.
+
+`types.toml` says what was decided and what of it is a guess, `inner_arm.csv` is what people's skin
+reflects, and `fitted.toml` is what `hylios.lab.phototype_fits` made of both. numpy only.
+"""
+
+import csv
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.resources import files
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from hylios.errors import InputError
+from hylios.skin.skin import Skin, skin
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, specimen_of
+
+PHOTOTYPES = ("I", "II", "III", "IV", "V", "VI")
+
+_MELANIN = [
+    f"{layer}_{form}" for layer in EPIDERMIS for form in ("melanosomes", "colloidal_melanin")
+]
+
+
+@dataclass(frozen=True, eq=False)
+class People:
+    """Mean reflectance of the inner arms of a class of people.
+
+    Attributes
+    ----------
+    name : str
+        From very_light to dark.
+    subjects : int
+    wavelengths, reflectance : (31,) arrays
+        nm, and 0 to 1, surface included.
+    """
+
+    name: str
+    subjects: int
+    wavelengths: np.ndarray
+    reflectance: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Phototype:
+    """A skin type.
+
+    Attributes
+    ----------
+    skin : Skin
+        Its specimen has the type's name.
+    tanning : mapping
+        What differs from the tanning set, as `hylios.skin.varied` takes it.
+    people : People
+        The class that stands for it.
+    rmse, ciede2000 : float
+        By which the specimen misses the class's mean, 400 to 700 nm.
+    guesses : tuple of str
+    """
+
+    skin: Skin
+    tanning: Mapping[str, float]
+    people: People
+    rmse: float
+    ciede2000: float
+    guesses: tuple[str, ...]
+
+
+@cache
+def phototype(name: str) -> Phototype:
+    """A skin type by its name, I to VI.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    if name not in PHOTOTYPES:
+        raise InputError(f"there is no skin type {name!r}; there are {', '.join(PHOTOTYPES)}.")
+    decided, fitted = _read("types.toml")[name], dict(_read("fitted.toml")[name])
+    misfit = {key: fitted.pop(key) for key in ("rmse", "ciede2000")}
+    begun = start(name)
+    more = 0.01 * fitted.pop("melanin") / begun.pigmentation
+    melanin = {each: more * getattr(begun, each) for each in _MELANIN}
+    tanning = MappingProxyType(decided.get("tanning", {}))
+    return Phototype(
+        skin=skin(
+            specimen_of({**asdict(begun), **melanin, **fitted}),
+            decided["pigmentation"],
+            tanning=tanning,
+        ),
+        tanning=tanning,
+        people=people(name),
+        guesses=tuple(decided["guesses"]),
+        **misfit,
+    )
+
+
+def start(name: str) -> Specimen:
+    """Where a type's fit starts: melanin lies as the tanning set's steady state (5.13)."""
+    types = _read("types.toml")
+    common, decided = dict(types["start"]), types[name]
+    usual = SPECIMENS[common.pop("base")]
+    values = {**asdict(usual), **common, **decided.get("specimen", {}), "name": name}
+    made_for = skin(
+        specimen_of(values), decided["pigmentation"], tanning=decided.get("tanning", {})
+    )
+    return made_for.tanned(made_for.untanned_melanin, 1.0)
+
+
+def people(name: str) -> People:
+    """The people whose inner arms stand for a type."""
+    text = (files(__name__) / "inner_arm.csv").read_text(encoding="utf-8")
+    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    (row,) = (each for each in rows if each["class"] == _read("types.toml")[name]["people"])
+    columns = [column for column in row if column.startswith("R")]
+    return People(
+        name=row["class"],
+        subjects=int(row["subjects"]),
+        wavelengths=np.array([float(column[1:]) for column in columns]),
+        reflectance=np.array([float(row[column]) for column in columns]),
+    )
+
+
+@cache
+def specimens() -> Mapping[str, Specimen]:
+    """Every specimen that has a name: S1 to S4 of table 6.1, and the six types'."""
+    types = {name: phototype(name).skin.specimen for name in PHOTOTYPES}
+    return MappingProxyType({**SPECIMENS, **types})
+
+
+def named_specimen(name: str) -> Specimen:
+    """One of `specimens` by name.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+    """
+    if name not in specimens():
+        raise InputError(f"there is no specimen {name!r}; there are {', '.join(specimens())}.")
+    return specimens()[name]
+
+
+@cache
+def _read(name: str) -> Mapping[str, Any]:
+    return tomllib.loads((files(__name__) / name).read_text(encoding="utf-8"))

@@ -1,0 +1,166 @@
+"""A skin that tans: a specimen, how it makes melanin, and the doses from which it tans and burns.
+
+The one owner of what a tan belongs to. numpy only.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from hylios.errors import InputError, require_range
+from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, tanned
+from hylios.tanning import (
+    PIGMENTATIONS,
+    MelaninDynamics,
+    minimal_erythema_dose,
+    minimal_melanogenesis_dose,
+)
+
+USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
+"""Set of table 6.4 for each specimen of table 6.1, by that table's caption."""
+
+LEAST_PIGMENTATION, MOST_PIGMENTATION = 0.013, 0.43
+"""Melanin fraction of the epidermis within which equations 3.1 and 3.2 hold."""
+
+UNTANNED = {
+    "steady_state": "melanin of each layer by the tanning set's steady state (5.16)",
+    "own": "the specimen's own melanin of each layer, scaled by m_i(t)/m_i(0)",
+}
+"""What the skin is without sun: 5.16 as printed, which keeps the specimen's total of melanin but
+lays it out by the tanning set, or the specimen itself. The same where the specimen's melanin lies
+as the set's, as in `hylios.skin.phototypes`."""
+
+_PER_LAYER = ("production", "transfer", "extra_production", "extra_transfer")
+
+
+@dataclass(frozen=True)
+class Skin:
+    """A specimen with the way it tans.
+
+    Attributes
+    ----------
+    specimen : Specimen
+    pigmentation : str
+        Set of table 6.4 that the dynamics come from: low, intermediate or high.
+    mmd, med : float
+        Minimal melanogenesis and erythema dose in SED.
+    dynamics : MelaninDynamics
+        The set's, or a variation of it.
+    untanned : str
+        One of `UNTANNED`: which skin the state without sun is.
+    """
+
+    specimen: Specimen
+    pigmentation: str
+    mmd: float
+    med: float
+    dynamics: MelaninDynamics
+    untanned: str = "steady_state"
+
+    def __post_init__(self):
+        if self.pigmentation not in PIGMENTATIONS:
+            raise InputError(
+                f"pigmentation is {self.pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
+            )
+        if self.untanned not in UNTANNED:
+            raise InputError(
+                f"the untanned skin is {self.untanned!r}; allowed is {', '.join(UNTANNED)}."
+            )
+        require_range("MMD", self.mmd, 0.01, 1000.0, "SED")
+        require_range("MED", self.med, 0.01, 1000.0, "SED")
+
+    @property
+    def untanned_melanin(self) -> np.ndarray:
+        """Melanin of basale, spinosum, granulosum without sun, relative to their total (3,)."""
+        steady = self.dynamics.steady_state()
+        return steady / steady.sum()
+
+    def tanned(self, melanin: np.ndarray, thickness: float) -> Specimen:
+        """The specimen in a tanning state; see `hylios.skin.specimen.tanned`."""
+        return tanned(self.specimen, melanin, thickness, self._kept)
+
+    def overfull(self, melanin: np.ndarray, thickness: float) -> bool:
+        """Whether `tanned` cuts melanin in a state because it would overfill a layer."""
+        return overfull(self.specimen, melanin, thickness, self._kept)
+
+    @property
+    def _kept(self) -> np.ndarray | None:
+        return self.untanned_melanin if self.untanned == "own" else None
+
+
+def skin(
+    specimen: Specimen,
+    pigmentation: str | None = None,
+    mmd: float | None = None,
+    med: float | None = None,
+    *,
+    tanning: Mapping[str, float] | None = None,
+    untanned: str = "steady_state",
+) -> Skin:
+    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
+
+    Melanin outside the equations' range, such as none at all, counts as the range's end.
+
+    Parameters
+    ----------
+    tanning : mapping, optional
+        Changes to the set's dynamics; see `varied`.
+
+    Raises
+    ------
+    InputError
+        If a minimal dose is out of range, there is no such tanning set, or a change to it or the
+        untanned state cannot be used.
+    """
+    level = min(max(specimen.pigmentation, LEAST_PIGMENTATION), MOST_PIGMENTATION)
+    pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
+    if pigmentation not in PIGMENTATIONS:
+        raise InputError(
+            f"pigmentation is {pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
+        )
+    return Skin(
+        specimen=specimen,
+        pigmentation=pigmentation,
+        mmd=minimal_melanogenesis_dose(level) if mmd is None else mmd,
+        med=minimal_erythema_dose(level) if med is None else med,
+        dynamics=varied(PIGMENTATIONS[pigmentation], tanning or {}),
+        untanned=untanned,
+    )
+
+
+def varied(dynamics: MelaninDynamics, values: Mapping[str, float]) -> MelaninDynamics:
+    """The dynamics with some rates set by name, as the thesis varies tanning ability.
+
+    A name is a layer's and a rate's, such as `basale_extra_production` (m_p,i,f of table 6.4;
+    0.0858 in figure 6.27), or one of table 6.5's, such as `melanin_decay`.
+
+    Raises
+    ------
+    InputError
+        If there is no such rate or a value is out of range.
+    """
+    layers = tuple(reversed(EPIDERMIS))
+    rates = {
+        f"{layer}_{name}": (name, row) for name in _PER_LAYER for row, layer in enumerate(layers)
+    }
+    scalars = [each.name for each in fields(MelaninDynamics) if each.name not in _PER_LAYER]
+    changes: dict[str, list[float] | float] = {}
+    for name, value in values.items():
+        if name in rates:
+            rate, row = rates[name]
+            whole = changes.setdefault(rate, list(getattr(dynamics, rate)))
+            whole[row] = value  # type: ignore[index]  # the rates per layer are lists
+        elif name in scalars:
+            changes[name] = value
+        else:
+            raise InputError(
+                f"there is no rate {name!r} of tanning; there are {', '.join([*rates, *scalars])}."
+            )
+    return replace(
+        dynamics,
+        **{
+            name: tuple(value) if isinstance(value, list) else value
+            for name, value in changes.items()
+        },
+    )

@@ -1,0 +1,212 @@
+"""Exposures of the tanning model from what people know: SED, UV index, a lamp's spectrum, the sun.
+
+Each function gives one dose for every hour of the model that it touches, on level skin or skin that
+faces the lamp; what part of it reaches a place of a body is a mask's to say.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hylios.errors import InputError, as_numbers, require_range
+from hylios.spectra import Figures
+from hylios.sun.action_spectra import (
+    SED,
+    Absorptance,
+    erythemal_dose,
+    melanogenesis_dose,
+    resampled,
+    thickening_dose,
+)
+from hylios.sun.position import sun
+from hylios.sun.protection import BARE, Protection
+from hylios.sun.sky import ClearSky, sunlight
+from hylios.tanning import Exposures
+
+WATTS_PER_UV_INDEX = 0.025
+"""Erythemal irradiance of one unit, W/m^2 (ISO/CIE 17166): .9 SED in an hour."""
+
+LONGEST = 240.0
+"""Hours of one exposure to a lamp or a UV index."""
+
+INSTANTS = 12
+"""At which the sun is looked at, for each hour or share of one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Doses:
+    """Doses by hour, in SED.
+
+    Attributes
+    ----------
+    hours : (E,) array
+    erythemal : (E,) array
+        As a meter under the same protection would show it.
+    melanogenesis, thickening : (E,) arrays
+        As they count for melanin and for thickness.
+    """
+
+    hours: np.ndarray
+    erythemal: np.ndarray
+    melanogenesis: np.ndarray
+    thickening: np.ndarray
+
+    def exposures(self) -> Exposures:
+        """For `hylios.tanning.simulate`.
+
+        Raises
+        ------
+        InputError
+            If an hour or a dose is out of range.
+        """
+        return Exposures(self.hours, self.melanogenesis, self.thickening)
+
+
+def joined(parts: Sequence[Doses]) -> Doses:
+    """All doses of several, in their order."""
+    names = ("hours", "erythemal", "melanogenesis", "thickening")
+    none = [np.zeros(0)]
+    return Doses(
+        *(np.concatenate(none + [getattr(each, name) for each in parts]) for name in names)
+    )
+
+
+def of_sed(hour: float, sed: float, protection: Protection = BARE) -> Doses:
+    """A dose in SED at an hour, taken as it is for melanin and thickness alike.
+
+    A protection's spectrum counts as it does for the sun (`Protection.of_sunlight`).
+    """
+    received = np.array([sed * protection.of_sunlight()])
+    return Doses(np.array([hour]), received, received, received)
+
+
+def of_uv_index(hour: float, index: float, duration: float, protection: Protection = BARE) -> Doses:
+    """Hours at a UV index, 25 mW/m^2 of erythemal irradiance a unit, taken as SED.
+
+    Parameters
+    ----------
+    hour : float
+        Of the beginning.
+    index : float
+        0 to 50.
+    duration : float
+        Hours, 0 to 240.
+
+    Raises
+    ------
+    InputError
+        If one is out of range.
+    """
+    require_range("UV index", index, 0.0, 50.0)
+    hours, shares = _spread(hour, duration)
+    received = index * WATTS_PER_UV_INDEX * 3600.0 / SED * shares * protection.of_sunlight()
+    return Doses(hours, received, received, received)
+
+
+def of_spectrum(
+    hour: float,
+    wavelengths: ArrayLike,
+    irradiance: ArrayLike,
+    seconds: float,
+    absorptance: Absorptance,
+    protection: Protection = BARE,
+    known: Figures | None = None,
+) -> Doses:
+    """Time under light of a spectrum (5.1 to 5.4, 5.17 to 5.20).
+
+    Parameters
+    ----------
+    hour : float
+        Of the beginning.
+    wavelengths, irradiance : (W,) arrays, nm and W/m^2/nm
+        What of it counts is said in `melanogenesis_dose`.
+    seconds : float
+        0 to 864000.
+    absorptance : Absorptance
+        Of the skin.
+    known : Figures, optional
+        Other action spectra.
+
+    Raises
+    ------
+    InputError
+        If the time is out of range or the spectrum cannot be used.
+    """
+    require_range("time of exposure", seconds, 0.0, 3600.0 * LONGEST, "s")
+    hours, shares = _spread(hour, seconds / 3600.0)
+    with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused below
+        exposure = 3600.0 * shares[:, None] * as_numbers("values of a spectral dose", irradiance)
+    return _of_light(hours, wavelengths, exposure, absorptance, protection, known)
+
+
+def of_sun(
+    day: date,
+    first: float,
+    last: float,
+    latitude: float,
+    absorptance: Absorptance,
+    *,
+    start: date | None = None,
+    longitude: float | None = None,
+    utc_offset: float = 0.0,
+    sky: ClearSky | None = None,
+    protection: Protection = BARE,
+    known: Figures | None = None,
+) -> Doses:
+    """Hours of a day under a clear sky, one dose for each (5.1 to 5.4, 5.17 to 5.20).
+
+    Parameters
+    ----------
+    day : date
+    first, last : float
+        Hours of the day, 0 to 24: local solar time, or a clock's where a longitude is given.
+    latitude, longitude, utc_offset
+        As in `hylios.sun.position.sun`.
+    absorptance, protection, known
+        As in `of_spectrum`.
+    start : date, optional
+        The day whose midnight is hour 0; `day` by default.
+    sky : ClearSky, optional
+
+    Raises
+    ------
+    InputError
+        If one is out of range, the hours do not ascend, or the day lies before the start.
+    """
+    for each in (first, last):
+        require_range("hour of sun", each, 0.0, 24.0)
+    if first >= last:
+        raise InputError(f"sun is asked for from {first:g} to {last:g} h; the first must be less.")
+    start = start or day
+    if day < start:
+        raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
+    edges = np.unique([first, *np.arange(np.ceil(first), np.floor(last) + 1.0), last])
+    lengths = np.diff(edges)
+    instants = edges[:-1, None] + lengths[:, None] * (np.arange(INSTANTS) + 0.5) / INSTANTS
+    place = sun(day, instants, latitude, longitude, utc_offset)
+    light = sunlight(place.zenith, sky or ClearSky(), place.distance)
+    exposure = 3600.0 * lengths[:, None] * light.level.mean(axis=1)
+    hours = 24.0 * (day - start).days + np.floor(edges[:-1])
+    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, known)
+
+
+def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection, known) -> Doses:
+    """Doses of radiant exposures (E, W), J/m^2/nm."""
+    grid, light = resampled(wavelengths, exposure)
+    received = light * protection.at(grid)
+    return Doses(
+        hours,
+        erythemal_dose(grid, received, known),
+        melanogenesis_dose(grid, received, absorptance, known),
+        thickening_dose(grid, received, absorptance, known),
+    )
+
+
+def _spread(hour: float, duration: float) -> tuple[np.ndarray, np.ndarray]:
+    """Hours of the model that a time from the beginning of one touches, and how much of each."""
+    require_range("duration", duration, 0.0, LONGEST, "hours")
+    passed = np.arange(max(1.0, np.ceil(duration)))
+    return hour + passed, np.clip(duration - passed, 0.0, 1.0)

@@ -1,0 +1,257 @@
+"""Putting a table together from its pieces."""
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from os import cpu_count
+
+import numpy as np
+
+import hylios
+from hylios.burley import burley_width
+from hylios.quadrature import skin_quadrature
+from hylios.skin import UNTANNED, Skin
+from hylios.skin.phototypes import PHOTOTYPES, phototype, specimens
+from hylios.skin.specimen import Specimen
+from hylios.spectra import Figures, estimates_within, figures
+from hylios.table import SkinTable, described_dynamics
+from hylios.tissue import FIGURES, readings
+from lut_builder.axes import choose_axes, needed_knots
+from lut_builder.jobs.work import Unit, done, in_threads
+from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelengths
+from lut_builder.settings import Settings
+
+SOLVER_ERROR = 3e-4
+"""Of a reflectance by `hylios.adding`, rms against the random walk."""
+
+Results = Mapping[str, Mapping[str, np.ndarray]]
+"""Arrays of each piece by name."""
+
+
+def requested(
+    made_for: Skin,
+    settings: Settings,
+    *,
+    seed: int = 1,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+    reached: np.ndarray | None = None,
+) -> Request:
+    """What has to be computed for a skin's table.
+
+    Parameters
+    ----------
+    known, chosen
+        Spectral figures and readings, the project's own by default.
+    reached : (N, 4) array, optional
+        Tanning states that a scene leads through, for a table of these alone.
+
+    Raises
+    ------
+    InputError
+        If the skin has a layer without melanin (`lut_builder.axes.untanned_state`).
+    """
+    whole = axes = choose_axes(made_for, settings.knots)
+    states, needed, within = axes.knot_states(), np.ones(axes.shape, bool), None
+    if reached is not None:
+        from lut_builder.scene_axes import farthest, laid_over  # scipy
+
+        axes, states = laid_over(whole, reached)
+        needed = needed_knots(axes, reached, settings.interpolation)
+        within = farthest(axes, states, reached, settings.interpolation)
+    # Plain dictionaries, for requests to travel to other processes.
+    own_figures = None if known is None else dict(known)
+    own_readings = None if chosen is None else dict(chosen)
+    return Request(
+        made_for,
+        settings,
+        axes,
+        states,
+        needed,
+        whole=int(np.prod(whole.shape)),
+        within=within,
+        seed=seed,
+        known=own_figures,
+        chosen=own_readings,
+    )
+
+
+def units(request: Request) -> list[Unit]:
+    """The work of a request."""
+    return [Unit(each.name, computed, (request, each), each.size) for each in pieces(request)]
+
+
+def build(
+    made_for: Skin,
+    settings: Settings,
+    *,
+    seed: int = 1,
+    threads: int | None = None,
+    known: Figures | None = None,
+    chosen: Mapping[str, str] | None = None,
+    reached: np.ndarray | None = None,
+) -> SkinTable:
+    """Build a skin's table in this process; the same whatever the number of threads.
+
+    Parameters as in `requested`, errors as there and in `lut_builder.request.computed`.
+    """
+    request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
+    runner = in_threads(threads or cpu_count() or 1)
+    return assembled(request, done(units(request), None, "", runner))
+
+
+def assembled(request: Request, results: Results) -> SkinTable:
+    """The table of a request from the results of its pieces."""
+    settings, parts = request.settings, pieces(request)
+    planes = _reflectance_planes(settings, parts, results)
+    if settings.has_profile:
+        planes.update(_profile_planes(settings, parts, results))
+    if request.within is not None:
+        planes["state"] = _state_plane(request, request.within)
+        nearest = _nearest_computed(request.needed)
+        planes = {name: plane[nearest] for name, plane in planes.items()}
+    cut = sum(request.skin.overfull(state[:3], state[3]) for state in request.states)
+    return SkinTable(
+        axes=request.axes,
+        planes={name: plane.reshape(*request.axes.shape, -1) for name, plane in planes.items()},
+        provenance={
+            **provenance(request),
+            "absorptance": _absorptance(results["absorptance"]),
+            "states_with_melanin_cut": int(cut),
+        },
+        interpolation=settings.interpolation,
+    )
+
+
+def _state_plane(request: Request, within: float) -> np.ndarray:
+    """The states that were computed, and how near to them a table for one scene holds, (N, 5)."""
+    ratios = np.log(request.states / request.axes.untanned)
+    return np.concatenate([ratios, np.full((len(ratios), 1), within)], axis=1)
+
+
+def _nearest_computed(needed: np.ndarray) -> np.ndarray:
+    """For each knot the number of the computed state that stands for it, its own or the nearest."""
+    known = np.argwhere(needed)
+    return np.array(
+        [((known - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
+    )
+
+
+def _reflectance_planes(
+    settings: Settings, parts: list[Piece], results: Results
+) -> dict[str, np.ndarray]:
+    """Colours and bands, (states, components)."""
+    colours = sorted((each for each in parts if each.kind == "colours"), key=lambda p: p.first)
+    found = [results[each.name] for each in colours]
+    subsurface = np.concatenate([each["subsurface"] for each in found])
+    total = subsurface + np.concatenate([each["surface"] for each in found])
+    planes = {}
+    count = settings.colour_wavelengths
+    if count:
+        weights = skin_quadrature(count).weights
+        error = SOLVER_ERROR * np.abs(weights).sum(axis=1)
+        planes["subsurface_colour"] = subsurface[:, :count] @ weights.T
+        planes["total_colour"] = total[:, :count] @ weights.T
+        planes["colour_error"] = np.tile(error, (len(total), 1))
+    if settings.bands:
+        planes["band_reflectance"] = total[:, count:]
+    return planes
+
+
+def channel_widths(light: np.ndarray) -> np.ndarray:
+    """Widths (...) in mm of the profiles of colour channels, from their light (..., bins)."""
+    from hylios.transport.simulate import DISTANCE_EDGES  # numba
+
+    seen = np.maximum(light, 0.0)
+    seen[~seen.any(axis=-1), 0] = 1.0  # where no light comes out any width will do
+    return np.asarray(burley_width(DISTANCE_EDGES, seen))
+
+
+def _profile_planes(
+    settings: Settings, parts: list[Piece], results: Results
+) -> dict[str, np.ndarray]:
+    """Width of each colour channel's profile, its error and effective sample size, (states, 3).
+
+    A channel's profile is the sum of those of the wavelengths, weighted as they make the channel's
+    colour, be it negatively.
+    """
+    from hylios.transport.reuse import Profiles  # numba
+
+    walked = sorted((each for each in parts if each.kind == "profile"), key=lambda p: p.wavelength)
+    found = [results[each.name] for each in walked]
+    light = np.stack([each["light"] for each in found], axis=1)
+    squares = np.stack([each["squares"] for each in found], axis=1)
+    widths, errors, samples = [], [], []
+    for weights in skin_quadrature(settings.profile_wavelengths).weights:
+        channel = Profiles(
+            light=np.einsum("w,swb->sb", weights, light),
+            squares=np.einsum("w,swb->sb", weights**2, squares),
+            rays=found[0]["rays"],
+            anew=found[0]["anew"],
+        )
+        widths.append(channel_widths(channel.light))
+        errors.append(channel.standard_error.max(axis=1))
+        samples.append(channel.effective_sample_size)
+    return {
+        "profile_width": np.transpose(widths),
+        "profile_error": np.transpose(errors),
+        "profile_effective_samples": np.transpose(samples),
+    }
+
+
+def provenance(request: Request) -> dict:
+    """What a table's header says of how it was asked to be made."""
+    made_for, settings = request.skin, request.settings
+    own = figures()
+    known, decided = request.known or own, readings(request.chosen)
+    return {
+        "software": f"skin-tan {hylios.__version__}",
+        "skin": _phototype(made_for),
+        "specimen": _described(made_for.specimen),
+        "specimen_parameters": asdict(made_for.specimen),
+        "untanned_state": UNTANNED[made_for.untanned],
+        "pigmentation": made_for.pigmentation,
+        "melanin_dynamics": described_dynamics(made_for.dynamics),
+        "mmd_sed": made_for.mmd,
+        "med_sed": made_for.med,
+        "solver": f"adding, {settings.nodes} directions; profiles by random walk on shared paths",
+        "settings": {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in asdict(settings).items()
+        },
+        "readings": dict(decided),
+        "own_figures": {
+            name: known[name].source for name in FIGURES if known[name] is not own[name]
+        },
+        "bands_nm": list(settings.bands),
+        "angle_deg": ANGLE,
+        "seed": request.seed,
+        "states_computed": int(request.needed.sum()),
+        "states_for_any_sun": request.whole,
+        "colour": "linear Rec.709, D65, CIE 1931 2 degree",
+        "profile_width_unit": "mm",
+        "estimated_figures": estimates_within(known, FIGURES, wavelengths(settings)),
+    }
+
+
+def _absorptance(found: Mapping[str, np.ndarray]) -> dict:
+    """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
+    return {
+        "wavelengths_nm": found["wavelengths"].tolist(),
+        "values": np.round(found["values"], 5).tolist(),
+    }
+
+
+def _phototype(made_for: Skin) -> str | None:
+    """Name of the Fitzpatrick type that a skin is, unless something in it was set otherwise."""
+    return next((name for name in PHOTOTYPES if phototype(name).skin == made_for), None)
+
+
+def _described(specimen: Specimen) -> str:
+    """The specimen's name, with what was set in it."""
+    usual = specimens().get(specimen.name)
+    changes = [
+        f"{name}={value}"
+        for name, value in asdict(specimen).items()
+        if usual is not None and value != getattr(usual, name)
+    ]
+    return f"{specimen.name} with {', '.join(changes)}" if changes else specimen.name

@@ -1,0 +1,1 @@
+"""Pieces of work on processes, threads or a cluster, kept as they are done."""

@@ -1,0 +1,194 @@
+"""The pieces of work that a table is made of: colours of some states, profiles at a wavelength.
+
+Each is a function from arrays and descriptions to named arrays, with its random numbers seeded by
+what it is: so pieces can be computed in any order, anywhere, and again.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.adding import spectra
+from hylios.adding.absorptance import tabulated
+from hylios.adding.solver import NODES
+from hylios.quadrature import skin_quadrature
+from hylios.skin import Skin
+from hylios.skin.specimen import Specimen
+from hylios.spectra import Figures
+from hylios.table import StateAxes
+from lut_builder.settings import Settings
+
+ANGLE = 8.0
+"""Of incidence, in degrees, as reflectance is measured."""
+
+STATES_TOGETHER = 24
+"""In one piece of colours."""
+
+ULTRAVIOLET_SECONDS, COLOUR_SECONDS = 0.9, 1e-3
+PROFILE_SECONDS, PATH_SECONDS = 0.3, 3e-6
+"""Of the absorptance, of a wavelength of a state, of any profile, and of each effective path of a
+state; about, on one core. Paths take a third in light skin and four times as much in dark skin."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a table is asked to be.
+
+    Attributes
+    ----------
+    skin : Skin
+    settings : Settings
+    axes : StateAxes
+    knot_states : (*axes.shape, 4) array
+        Tanning states at the knots.
+    needed : bool array of shape `axes.shape`
+        Knots to compute.
+    whole : int
+        Number of states that the skin's table for any sun has.
+    within : float or None
+        Of a table for one scene: how far its states lie at most from those that a lookup of
+        `knot_states` gives for them, in the logarithm of one of the four numbers.
+    seed : int
+    known : Figures or None
+        Other spectral figures than the project's.
+    chosen : mapping or None
+        Other readings of the thesis.
+    """
+
+    skin: Skin
+    settings: Settings
+    axes: StateAxes
+    knot_states: np.ndarray
+    needed: np.ndarray
+    whole: int
+    within: float | None = None
+    seed: int = 1
+    known: Figures | None = None
+    chosen: Mapping[str, str] | None = None
+
+    @property
+    def states(self) -> np.ndarray:
+        """Tanning states to compute, (N, 4)."""
+        return self.knot_states[self.needed]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A piece of a table.
+
+    Attributes
+    ----------
+    name : str
+        Of its own among the request's.
+    kind : str
+        "colours" of states `first` up to `last`, a "profile" at `wavelength` nm of all states, or
+        the untanned skin's "absorptance".
+    size : float
+        Seconds that it takes on one core, about, for the time left.
+    """
+
+    name: str
+    kind: str
+    size: float
+    first: int = 0
+    last: int = 0
+    wavelength: float = 0.0
+
+
+def pieces(request: Request) -> list[Piece]:
+    """All pieces of a request, the longest first."""
+    found = [
+        Piece("absorptance", "absorptance", ULTRAVIOLET_SECONDS),
+        *_profiles(request),
+        *_colours(request),
+    ]
+    return sorted(found, key=lambda piece: -piece.size)
+
+
+def wavelengths(settings: Settings) -> np.ndarray:
+    """Wavelengths in nm of the colours, then of the bands."""
+    count = settings.colour_wavelengths
+    visible = skin_quadrature(count).wavelengths if count else np.zeros(0)
+    return np.concatenate([visible, settings.bands])
+
+
+def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
+    """The arrays of a piece, on one core.
+
+    Colours give `surface` and `subsurface` (states, wavelengths); a profile gives `light` and
+    `squares` (states, bins), `rays` and `anew`, as `hylios.transport.reuse.Profiles` has them; the
+    absorptance gives `wavelengths` and `values`, as
+    `hylios.sun.action_spectra.Absorptance` has them.
+
+    Raises
+    ------
+    InputError
+        If the skin's melanosomes cannot be solved for (`hylios.adding.solve`).
+    """
+    if piece.kind == "colours":
+        return _solved(request, request.states[piece.first : piece.last])
+    if piece.kind == "absorptance":
+        return _absorbed(request)
+    return _walked(request, piece.wavelength)
+
+
+def _absorbed(request: Request) -> dict[str, np.ndarray]:
+    found = tabulated(request.skin.specimen, known=request.known, chosen=request.chosen)
+    return {"wavelengths": found.wavelengths, "values": found.values}
+
+
+def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
+    from hylios.transport.reuse import skin_profiles  # numba
+
+    (found,) = skin_profiles(
+        _specimens(request, request.states),
+        [wavelength],
+        error=request.settings.profile_error,
+        angle=ANGLE,
+        seed=request.seed,
+        threads=1,
+        known=request.known,
+        chosen=request.chosen,
+    )
+    return {
+        "light": found.light,
+        "squares": found.squares,
+        "rays": found.rays,
+        "anew": found.anew,
+    }
+
+
+def _profiles(request: Request) -> Iterator[Piece]:
+    settings = request.settings
+    if settings.has_profile:
+        paths = len(request.states) * 0.25 / settings.profile_error**2
+        size = PROFILE_SECONDS + paths * PATH_SECONDS
+        for each in skin_quadrature(settings.profile_wavelengths).wavelengths:
+            name = f"profile-{each:g}nm"
+            yield Piece(name, "profile", size, wavelength=float(each))
+
+
+def _colours(request: Request) -> Iterator[Piece]:
+    settings = request.settings
+    each = COLOUR_SECONDS * (settings.nodes / NODES) ** 2 * wavelengths(settings).size
+    count = len(request.states)
+    for first in range(0, count, STATES_TOGETHER):
+        last = min(first + STATES_TOGETHER, count)
+        yield Piece(f"colours-{first}", "colours", each * (last - first), first, last)
+
+
+def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
+    found = spectra(
+        _specimens(request, states),
+        wavelengths(request.settings),
+        angle=ANGLE,
+        nodes=request.settings.nodes,
+        known=request.known,
+        chosen=request.chosen,
+    )
+    return {"surface": found.surface, "subsurface": found.subsurface}
+
+
+def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:
+    return [request.skin.tanned(state[:3], state[3]) for state in states]

@@ -1,0 +1,1 @@
+"""Speed for accuracy: measured, drawn, and chosen from."""

@@ -1,0 +1,292 @@
+"""Single measurements of time and error, of which `lut_builder.trade.trade` puts points together.
+
+Seconds are those of the processor, of one core.
+"""
+
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hylios.adding import spectra
+from hylios.burley import burley_share_within
+from hylios.lab.colour import difference, lab, rec709_weights
+from hylios.quadrature import skin_quadrature
+from hylios.skin import Skin
+from hylios.transport.paths import LEAST
+from hylios.transport.reuse import skin_profiles
+from hylios.transport.simulate import DISTANCE_EDGES
+from hylios.transport.simulate import spectrum as walked
+from lut_builder.assemble import assembled, channel_widths, requested
+from lut_builder.axes import choose_axes, reachable_states
+from lut_builder.exr import write_table
+from lut_builder.request import ANGLE, STATES_TOGETHER, computed, pieces
+from lut_builder.settings import Settings
+
+UNSEEN = np.array([401.7, 433.1, 468.3, 507.9, 541.7, 583.3, 611.9, 653.1])
+"""Wavelengths in nm that no table uses, so that nothing of them is kept from before."""
+
+REGIONS_NM = (700.0, 1400.0)
+"""Where the spectrum is divided for piecewise components (D.1)."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Seconds of the solver: of each reflectance, and besides of a wavelength's first."""
+
+    each: float
+    first: float
+
+    def seconds(self, states: int, wavelengths: int) -> float:
+        """Of a table's colours and bands."""
+        return wavelengths * (self.first + states * self.each)
+
+
+@dataclass(frozen=True)
+class Run:
+    """Profiles of a table that were walked.
+
+    Attributes
+    ----------
+    error : float
+        That was asked for.
+    shared, serial : float
+        Seconds that cores share, and that one spends on fitting widths.
+    widths : (N, 3) array
+        In mm, looked up in the table at states between its knots.
+    """
+
+    error: float
+    shared: float
+    serial: float
+    widths: np.ndarray
+
+
+@dataclass(frozen=True)
+class FineProfiles:
+    """Profiles of N states against which those of tables are measured, for three channels each.
+
+    Attributes
+    ----------
+    widths : (N, 3) array
+        In mm.
+    light : (N, 3) array
+        Of the channel, linear Rec.709, that leaves after having been inside.
+    misfits : (N, 3) array
+        Largest difference of the share of light within a distance, between the walked profile and
+        Burley's of that width: no table that holds widths can do better.
+    """
+
+    widths: np.ndarray
+    light: np.ndarray
+    misfits: np.ndarray
+
+
+def between_knots(made_for: Skin, count: int, seed: int) -> np.ndarray:
+    """Tanned states (N, 4) of schedules other than those that chose the axes."""
+    states = reachable_states(made_for, 100, seed)
+    tanned = np.abs(np.log(states / choose_axes(made_for, (1,)).untanned)).max(axis=1) > 1e-3
+    return np.random.default_rng(seed).choice(states[tanned], count, replace=False)
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """Seconds and result."""
+    start = time.process_time()
+    result = work()
+    return time.process_time() - start, result
+
+
+def reflectances(
+    made_for: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int
+) -> np.ndarray:
+    """Total reflectance (N, W) of states by the solver, as pieces of a table compute it."""
+    found = []
+    for first in range(0, len(states), STATES_TOGETHER):
+        some = [made_for.tanned(each[:3], each[3]) for each in states[first:][:STATES_TOGETHER]]
+        found.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
+    return np.concatenate(found)
+
+
+def solver_cost(made_for: Skin, nodes: int, repeats: int) -> Cost:
+    """What a reflectance costs with so many nodes.
+
+    Of some runs the fastest counts: other work can only slow one down.
+    """
+    states = reachable_states(made_for, 1, 1)[:: 240 // STATES_TOGETHER][:STATES_TOGETHER]
+    firsts, each = [], []
+    for repeat in range(repeats):
+        unseen = UNSEEN + 0.1 * repeat
+        first, _ = timed(lambda at=unseen: reflectances(made_for, states[:1], at, nodes))
+        rest, _ = timed(lambda at=unseen: reflectances(made_for, states, at, nodes))
+        firsts.append(first / UNSEEN.size)
+        each.append(rest / UNSEEN.size / len(states))
+    return Cost(min(each), max(min(firsts) - min(each), 0.0))
+
+
+def start_seconds(has_profile: bool, repeats: int) -> float:
+    """Seconds of a table of one state in a process of its own; of some the fastest."""
+    with tempfile.TemporaryDirectory() as folder:
+        asked = ["build", "--preset", "preview", "--knots", "1", "--wavelengths", "4"]
+        asked += ["--bands", "visible", "--force", "-o", str(Path(folder) / "start.exr")]
+        asked += [] if has_profile else ["--no-profile"]
+        seconds = []
+        for _ in range(repeats):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run(
+                [sys.executable, "-m", "lut_builder.cli", *asked], check=True, capture_output=True
+            )
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return min(seconds)
+
+
+def walk(
+    made_for: Skin, states: np.ndarray, wavelengths: np.ndarray, rays: int, seed: int
+) -> tuple[float, np.ndarray]:
+    """Seconds of a reflectance by random walk, and total reflectances (N, W)."""
+
+    def light(state: np.ndarray) -> np.ndarray:
+        specimen = made_for.tanned(state[:3], state[3])
+        return walked(specimen, wavelengths, angle=ANGLE, rays=rays, seed=seed, threads=1).total
+
+    light(states[0])  # compiles or loads the kernels
+    seconds, found = timed(lambda: np.array([light(each) for each in states]))
+    return seconds / found.size, found
+
+
+def fine_profiles(
+    made_for: Skin, states: np.ndarray, wavelengths: int, error: float, seed: int
+) -> FineProfiles:
+    """Profiles of states from so many wavelengths, with a standard error."""
+    few = skin_quadrature(wavelengths)
+    specimens = [made_for.tanned(each[:3], each[3]) for each in states]
+    # Another seed than the tables': errors are to be independent.
+    found = skin_profiles(
+        specimens, few.wavelengths, error=error, angle=ANGLE, seed=seed + 1, threads=1
+    )
+    channels = np.einsum("cw,wsb->scb", few.weights, np.array([each.light for each in found]))
+    light = np.maximum(channels.sum(axis=2), LEAST)
+    widths = channel_widths(channels)
+    within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
+    seen = burley_share_within(DISTANCE_EDGES[1:], widths[..., None])
+    return FineProfiles(widths, light, np.abs(within - seen).max(axis=2))
+
+
+def share_errors(widths: np.ndarray, fine: np.ndarray) -> np.ndarray:
+    """Largest difference of the shares of light within a distance, of Burley profiles.
+
+    Parameters
+    ----------
+    widths, fine : (...) arrays
+    """
+    distances = np.geomspace(0.05, 20.0, 200).reshape(-1, *(1,) * np.ndim(widths))
+    seen = burley_share_within(distances, 1.0)
+    moved = burley_share_within(distances * np.divide(fine, widths), 1.0)
+    return np.abs(moved - seen).max(axis=0)
+
+
+def lightness_lost(light: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """How much the CIE 1976 lightness of a light falls where a share of it is missing.
+
+    So much an error of the profile's share within a distance can do at a place that light reaches
+    from one side only. Elsewhere it does less, in even light nothing.
+
+    Parameters
+    ----------
+    light, shares : (...) arrays
+    """
+    greys = np.stack([light, light * (1.0 - shares)])[..., None] * np.ones(3)
+    before, after = lab(greys)[..., 0]
+    return before - after
+
+
+def profile_runs(
+    made_for: Skin,
+    settings: Settings,
+    errors: Sequence[float],
+    states: np.ndarray,
+    longest: float,
+    seed: int,
+) -> list[Run]:
+    """Tables with profiles of ever smaller error, until one would take longer than `longest`."""
+    runs: list[Run] = []
+    for error in errors:
+        if len(runs) > 1 and _expected(runs, error) > longest:
+            break
+        request = requested(made_for, replace(settings, profile_error=error), seed=seed)
+        shared, results = 0.0, {}
+        for each in pieces(request):
+            seconds, results[each.name] = timed(lambda of=request, piece=each: computed(of, piece))
+            shared += seconds if each.kind == "profile" else 0.0
+        serial, table = timed(lambda of=request, by=results: assembled(of, by))
+        runs.append(Run(error, shared, serial, table.plane("profile_width", states)))
+    return runs
+
+
+def _expected(runs: list[Run], error: float) -> float:
+    """Seconds of the same profiles with another error, by what the last run had more than before.
+
+    Seconds grow with the number of paths, which goes with the inverse square of the error.
+    """
+    before, last = runs[-2:]
+    grown = max(last.shared - before.shared, 0.0)
+    share = (error**-2 - last.error**-2) / (last.error**-2 - before.error**-2)
+    return last.serial + last.shared + grown * share
+
+
+def half_against_full(
+    made_for: Skin, settings: Settings, states: np.ndarray, seed: int
+) -> tuple[np.ndarray, dict[str, int]]:
+    """CIEDE2000 (N,) that numbers of 16 bits make, and bytes of the file by kind of number."""
+    request = requested(made_for, settings, seed=seed)
+    table = assembled(request, {each.name: computed(request, each) for each in pieces(request)})
+    rounded = {
+        name: each.astype(np.float16).astype(float)
+        for name, each in table.planes.items()
+        if name == "total_colour"
+    }
+    apart = difference(
+        replace(table, planes=rounded).plane("total_colour", states),
+        table.plane("total_colour", states),
+    )
+    sizes = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("float", "half"):
+            path = Path(folder) / f"{name}.exr"
+            write_table(path, table, half=name == "half")
+            sizes[name] = os.path.getsize(path)
+    return apart, sizes
+
+
+def regions(wavelengths: np.ndarray) -> list[np.ndarray]:
+    """Which wavelengths belong to each of the piecewise analysis's regions, bool."""
+    number = np.searchsorted(REGIONS_NM, wavelengths)
+    return [number == each for each in range(len(REGIONS_NM) + 1)]
+
+
+def component_errors(
+    spectra: np.ndarray, others: np.ndarray, parts: Sequence[np.ndarray], components: int
+) -> np.ndarray:
+    """RMSE (N,) of `others` (N, W) from so many principal components of `spectra` (M, W).
+
+    As in appendix D no mean is subtracted, and each of the `parts`, bool arrays (W,), has
+    components of its own; unlike there, spectra are kept that the components were not made from.
+    """
+    again = np.empty_like(others)
+    for part in parts:
+        rows = np.linalg.svd(spectra[:, part], full_matrices=False)[2][:components]
+        again[:, part] = others[:, part] @ rows.T @ rows
+    return np.sqrt(np.mean((others - again) ** 2, axis=1))
+
+
+def colours(reflectance: np.ndarray, wavelengths: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 (N, 3) of reflectance (N, W) every 5 nm from 400 to 700 nm."""
+    return reflectance @ rec709_weights(wavelengths).T

@@ -1,0 +1,125 @@
+"""Colours of tanning states without noise, and the limit of threads that they need."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from hylios.adding import colours, spectrum
+from hylios.errors import InputError
+from hylios.lab import colour
+from hylios.skin import skin
+from hylios.skin.specimen import SPECIMENS, with_values
+from hylios.threads import controls, one_thread
+
+S3 = skin(SPECIMENS["S3"])
+STATES = np.array([[*S3.untanned_melanin * more, 1.0 + 0.1 * more] for more in (1.0, 1.5, 2.5)])
+WHOLE = np.arange(360.0, 781.0, 5.0)
+
+
+@pytest.mark.parametrize("name", ["S1", "S3", "S4"])
+def test_colours_of_few_wavelengths_are_those_of_whole_spectra(name):
+    made_for = skin(SPECIMENS[name])
+    found = colours(made_for, STATES, bands=[365.0, 1650.0])
+    for row, state in enumerate(STATES):
+        tanned = made_for.tanned(state[:3], state[3])
+        whole = spectrum(tanned, WHOLE)
+        weights = colour.rec709_weights(WHOLE)
+        assert colour.difference(weights @ whole.total, found.total[row]) < 0.05
+        assert colour.difference(weights @ whole.subsurface, found.subsurface[row]) < 0.05
+        bands = spectrum(tanned, [365.0, 1650.0]).total
+        assert found.bands[row] == pytest.approx(bands, abs=1e-12)
+
+
+def test_more_wavelengths_change_colours_little_and_states_are_as_alone():
+    many = np.repeat(STATES, 7, axis=0)
+    told = []
+    found = colours(S3, many, count=16, progress=told.append)
+    assert sum(told) == len(many) and len(told) > 1
+    for first in range(7):
+        assert np.allclose(found.total[first::7], found.total[::7], rtol=0.0, atol=1e-12)
+    few = colours(S3, STATES)
+    assert colour.difference(found.total[::7], few.total).max() < 0.05
+    assert few.bands.shape == (3, 0)
+    assert colours(S3, np.empty((0, 4)), bands=[400.0]).bands.shape == (0, 1)
+
+
+ABSORBING = ("blood", "melanosomes", "melanin", "lipids", "water", "carotene", "keratin", "acid")
+
+
+def test_skin_without_absorbers_is_white():
+    none = {
+        name: 0.0
+        for name in vars(SPECIMENS["S3"])
+        if name.endswith(ABSORBING) or name == "skin_dna"
+    }
+    kept = {"oxygenated_blood": SPECIMENS["S3"].oxygenated_blood}
+    clear = with_values(SPECIMENS["S3"], {**none, **kept}, allow_unphysical=True)
+    found = colours(skin(clear), STATES, bands=[365.0])
+    assert np.abs(found.total - 1.0).max() < 1e-9
+    assert np.abs(found.bands - 1.0).max() < 1e-9
+    assert np.all(found.subsurface < 0.98)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"states": STATES[0]}, r"tanning states have shape \(4,\); expected \(N, 4\)"),
+        ({"states": -STATES}, "relative melanin is"),
+        ({"count": 3}, "number of wavelengths is 3; allowed is 4 to 16"),
+        ({"bands": [100.0]}, "wavelength 100 nm is outside"),
+        ({"angle": 90.0}, "angle of incidence is 90 degrees"),
+    ],
+)
+def test_bad_input_is_named(arguments, sentence):
+    with pytest.raises(InputError, match=sentence):
+        colours(S3, **{"states": STATES, **arguments})
+
+
+LIMITED = """
+from threading import Barrier, Thread
+from hylios.threads import controls, one_thread
+
+get, _ = controls()
+before = get()
+assert before > 1, before
+barrier, seen = Barrier(2), []
+
+def leave_in_turn(first):
+    with one_thread():
+        barrier.wait()
+        if first:
+            return
+        other.join()
+        seen.append(get())
+
+other = Thread(target=leave_in_turn, args=[True])
+last = Thread(target=leave_in_turn, args=[False])
+other.start(), last.start(), other.join(), last.join()
+assert seen == [1], seen
+try:
+    with one_thread():
+        raise KeyError
+except KeyError:
+    pass
+assert get() == before, get()
+"""
+
+
+@pytest.mark.skipif(controls() is None, reason="numpy here comes without OpenBLAS")
+def test_threads_are_limited_until_the_last_user_leaves():
+    done = subprocess.run(
+        [sys.executable, "-c", LIMITED],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "2"},
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_numpy_without_openblas_is_left_alone(monkeypatch):
+    monkeypatch.setattr("hylios.threads.controls", lambda: None)
+    with one_thread():
+        assert np.linalg.inv(2.0 * np.eye(2))[0, 0] == 0.5

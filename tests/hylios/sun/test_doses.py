@@ -1,0 +1,460 @@
+"""Doses of sun, lamps and UV index, and the commands that take them."""
+
+import csv
+import io
+import subprocess
+import sys
+from datetime import date
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hylios.adding.absorptance import tabulated
+from hylios.adding.spectrum import spectrum
+from hylios.commands.cli import main
+from hylios.errors import InputError
+from hylios.skin.specimen import SPECIMENS
+from hylios.spectra import figures, replaced
+from hylios.sun.action_spectra import (
+    ERYTHEMA,
+    MELANOGENESIS,
+    Absorptance,
+    action,
+    erythemal_dose,
+    melanogenesis_dose,
+    thickening_dose,
+)
+from hylios.sun.doses import Doses, joined, of_sed, of_spectrum, of_sun, of_uv_index
+from hylios.sun.position import sun
+from hylios.sun.protection import clothing, sunscreen, sunscreen_film
+from hylios.sun.sky import ClearSky
+from hylios.tissue import readings
+
+NM = np.arange(280.0, 401.0)
+SKIN = Absorptance([280.0, 298.0, 340.0, 400.0], [0.95, 0.9, 0.8, 0.7])
+SUMMER = date(2025, 6, 21)
+
+
+def line(nanometres, joules=100.0):
+    """Light of one wavelength, on a grid of 1 nm."""
+    return np.where(nanometres == NM, joules, 0.0)
+
+
+def test_a_specimen_is_tabulated_once():
+    found = tabulated(SPECIMENS["S3"])
+    assert found is tabulated(SPECIMENS["S3"])
+    direct = spectrum(SPECIMENS["S3"], [280.0, 298.0, 400.0]).absorptance
+    assert found.at(np.array([280.0, 298.0, 400.0])) == pytest.approx(direct, abs=1e-9)
+    assert found.wavelengths[[0, -1]] == pytest.approx([280.0, 400.0])
+
+
+@pytest.mark.parametrize("dose", [melanogenesis_dose, thickening_dose])
+def test_a_joule_of_298_nm_is_a_hundredth_sed(dose):
+    assert dose(NM, line(298.0), SKIN) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("dose", "name"), [(melanogenesis_dose, MELANOGENESIS), (thickening_dose, ERYTHEMA)]
+)
+@pytest.mark.parametrize("nanometres", [285.0, 311.0, 365.0])
+def test_other_lines_count_by_action_and_absorptance(dose, name, nanometres):
+    """5.3 over 5.2, and 5.19 over 5.18, for a lamp's line."""
+    weight = action(name, np.array([nanometres])) * SKIN.at(np.array([nanometres])) / 0.9
+    assert dose(NM, line(nanometres), SKIN) == pytest.approx(weight.item(), rel=1e-9)
+
+
+def test_the_erythema_action_spectrum_is_cies():
+    """1 to 298 nm, 10^(.094 (298 - l)) to 328 nm, 10^(.015 (140 - l)) to 400 nm (ISO 17166)."""
+    found = action(ERYTHEMA, np.array([290.0, 299.0, 313.0, 327.5, 365.0, 400.0]))
+    expected = 10.0 ** np.array([0, -0.094, -1.41, -2.773, 0.015 * -225, 0.015 * -260])
+    assert found == pytest.approx(expected, rel=2e-4)
+
+
+def test_light_of_a_coarse_spectrum_ends_where_it_ends():
+    """1 J/m^2/nm from 302 to 322 nm, given by its ends alone; erythema by hand."""
+    fall = 0.094 * np.log(10.0)
+    by_hand = (np.exp(-4.0 * fall) - np.exp(-24.0 * fall)) / fall / 100.0
+    assert erythemal_dose([302.0, 322.0], [1.0, 1.0]) == pytest.approx(by_hand, rel=5e-3)
+
+
+def test_light_beyond_the_ultraviolet_does_nothing():
+    dark = erythemal_dose([390.0, 400.0, 400.1, 800.0], [0.0, 0.0, 5.0, 5.0])
+    assert dark == 0.0
+    assert melanogenesis_dose([500.0, 600.0], [1.0, 1.0], SKIN) == 0.0
+
+
+def test_many_exposures_at_once_equal_each_alone():
+    light = np.random.default_rng(1).uniform(0.0, 5.0, (2, 3, NM.size))
+    together = melanogenesis_dose(NM, light, SKIN)
+    assert together.shape == (2, 3)
+    assert together[1, 2] == melanogenesis_dose(NM, light[1, 2], SKIN)
+
+
+@pytest.mark.parametrize(
+    ("wavelengths", "exposure", "sentence"),
+    [
+        ([254.0, 300.0], [1.0, 0.0], "has light at 254 nm; allowed is 280 nm and more"),
+        ([300.0, 310.0], [1.0, -1.0], "negative or not a number"),
+        ([300.0, 310.0], [1.0, np.nan], "negative or not a number"),
+        ([310.0, 300.0], [1.0, 1.0], "at least two wavelengths, ascending"),
+        ([300.0], [1.0], "at least two wavelengths, ascending"),
+        ([300.0, 310.0], [1.0, 1.0, 1.0], "its last axis must match the 2 wavelengths"),
+        ([300.0, 310.0], [1.0, 1e16], "too large; allowed is 0 to"),
+        (["UVA", "UVB"], [1.0, 1.0], "wavelengths of a spectral dose are .* expected an array"),
+        ([300.0, 310.0], [[1.0], [1.0, 2.0]], "values of a spectral dose are .* expected an array"),
+    ],
+)
+def test_a_bad_spectrum_is_named(wavelengths, exposure, sentence):
+    with pytest.raises(InputError, match=sentence):
+        melanogenesis_dose(wavelengths, exposure, SKIN)
+
+
+@pytest.mark.parametrize(
+    ("wavelengths", "values", "sentence"),
+    [
+        ([280.0, 390.0], [0.9, 0.9], "needed is 280 to 400 nm"),
+        ([280.0, 400.0], [0.9, 1.1], "absorptance has a value of 1.1; allowed is 0 to 1"),
+        ([280.0, 400.0], [0.9], "expected two rows of one length"),
+    ],
+)
+def test_a_bad_absorptance_is_named(wavelengths, values, sentence):
+    with pytest.raises(InputError, match=sentence):
+        Absorptance(wavelengths, values)
+
+
+SPECTRA = st.lists(st.floats(0.0, 1e6), min_size=NM.size, max_size=NM.size).map(np.array)
+
+
+@settings(max_examples=50, deadline=None)
+@given(SPECTRA, st.floats(1.0, 1e3), st.floats(0.0, 3600.0), st.floats(1.0, 100.0))
+def test_more_light_for_longer_is_more_dose(light, times, seconds, spf):
+    usual = of_spectrum(0, NM, light, seconds, SKIN)
+    for more in (
+        of_spectrum(0, NM, times * light, seconds, SKIN),
+        of_spectrum(0, NM, light, min(times * seconds, 3600.0), SKIN),
+    ):
+        assert np.all(every(more) >= every(usual) * (1.0 - 1e-12))
+    less = of_spectrum(0, NM, light, seconds, SKIN, sunscreen(spf))
+    assert every(less) == pytest.approx(every(usual) / spf)
+    for doses in (usual, less):
+        assert np.all(np.isfinite(every(doses)))
+        assert np.all(every(doses) >= 0.0)
+
+
+COLUMNS = ("erythemal", "melanogenesis", "thickening")
+
+
+def every(doses: Doses):
+    return np.array([doses.erythemal, doses.melanogenesis, doses.thickening])
+
+
+def test_an_hour_at_uv_index_10_is_9_sed():
+    doses = of_uv_index(7, 10.0, 1.5)
+    assert doses.hours.tolist() == [7.0, 8.0]
+    assert every(doses) == pytest.approx(np.array([[9.0, 4.5]] * 3))
+    assert every(of_uv_index(7, 10.0, 0.0)).tolist() == [[0.0]] * 3
+
+
+def test_a_lamp_for_two_hours_and_a_half():
+    doses = of_spectrum(3, NM, line(298.0, 0.1), 9000.0, SKIN)
+    assert doses.hours.tolist() == [3.0, 4.0, 5.0]
+    assert every(doses) == pytest.approx(np.array([[3.6, 3.6, 1.8]] * 3))
+
+
+def test_protection_weighs_each_wavelength():
+    """A film that stops the UVB alone leaves a UVA lamp as it is, and a dose in SED its UVA."""
+    film = sunscreen_film([280.0, 330.0, 331.0, 400.0], [0.0, 0.0, 1.0, 1.0])
+    assert every(of_spectrum(0, NM, line(365.0), 60.0, SKIN, film)) == pytest.approx(
+        every(of_spectrum(0, NM, line(365.0), 60.0, SKIN))
+    )
+    assert np.all(every(of_spectrum(0, NM, line(311.0), 60.0, SKIN, film)) == 0.0)
+    assert 0.0 < of_sed(0, 1.0, film).erythemal[0] < 0.2
+    assert every(of_sed(0, 30.0, clothing(15.0))) == pytest.approx(2.0)
+    assert every(of_uv_index(0, 10.0, 1.0, clothing(15.0))) == pytest.approx(0.6)
+
+
+def test_melanin_and_thickness_are_given_their_own_doses():
+    doses = of_spectrum(0, NM, line(365.0), 60.0, SKIN)
+    assert doses.melanogenesis[0] > 2.0 * doses.thickening[0] > 0.0
+    given = doses.exposures()
+    assert np.array_equal(given.doses, doses.melanogenesis)
+    assert np.array_equal(given.thickening_doses, doses.thickening)
+
+
+def test_the_hours_of_a_day_add_up():
+    """Hour by hour is the same light as every minute, within 1e-3."""
+    day = of_sun(SUMMER, 4.25, 20.0, 40.0, SKIN)
+    assert day.hours.tolist() == list(range(4, 20))
+    hours = [of_sun(SUMMER, max(h, 4.25), h + 1.0, 40.0, SKIN) for h in range(4, 20)]
+    assert np.array_equal(every(joined(hours)), every(day))
+    minutes = np.linspace(4.25, 20.0, 946)
+    fine = [
+        of_sun(SUMMER, a, b, 40.0, SKIN) for a, b in zip(minutes[:-1], minutes[1:], strict=True)
+    ]
+    whole = every(day).sum(axis=1)
+    assert every(joined(fine)).sum(axis=1) == pytest.approx(whole, rel=1e-3)
+
+
+def test_a_share_of_an_hour_is_one():
+    doses = of_sun(SUMMER, 10.5, 12.25, 40.0, SKIN, start=date(2025, 6, 19))
+    assert doses.hours.tolist() == [58.0, 59.0, 60.0]
+    halves = of_sun(SUMMER, 10.0, 10.5, 40.0, SKIN).erythemal + doses.erythemal[0]
+    whole = of_sun(SUMMER, 10.0, 11.0, 40.0, SKIN).erythemal
+    assert halves == pytest.approx(whole, rel=1e-3)
+
+
+def test_no_sun_no_dose():
+    night = of_sun(date(2025, 12, 21), 0.0, 24.0, 75.0, SKIN)
+    assert night.hours.size == 24
+    assert np.all(every(night) == 0.0)
+    assert np.all(every(of_sun(SUMMER, 0.0, 4.0, 40.0, SKIN)) == 0.0)
+
+
+def test_december_in_the_south_is_stronger_than_june_in_the_north():
+    """By the squares of the distances, 1.0163 and .9838 astronomical units, and nothing else."""
+    north = of_sun(SUMMER, 8.0, 16.0, 40.0, SKIN).erythemal.sum()
+    south = of_sun(date(2025, 12, 21), 8.0, 16.0, -40.0, SKIN).erythemal.sum()
+    assert south / north == pytest.approx((1.0163 / 0.9838) ** 2, rel=2e-3)
+
+
+def test_a_day_in_june_is_tens_of_sed():
+    """Six hours around noon at 40 degrees: Madronich's UV index has 49 SED for clean air, from
+    which this model lacks what it does for the UV index."""
+    doses = of_sun(SUMMER, 9.0, 15.0, 40.0, SKIN, sky=ClearSky(aerosol=0.0))
+    published = 0.0
+    for hour in np.arange(9.0, 15.0, 0.1) + 0.05:
+        cosine = np.cos(np.radians(sun(SUMMER, hour, 40.0).zenith))
+        published += 12.5 * cosine**2.42 * 0.9 * 0.1
+    assert 0.88 < doses.erythemal.sum() / published < 0.96
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.dates(date(1950, 1, 1), date(2050, 12, 31)),
+    st.floats(-90.0, 90.0),
+    st.floats(0.0, 23.0),
+    st.floats(0.01, 1.0),
+)
+def test_longer_in_the_sun_is_never_less(day, latitude, first, length):
+    """But for the five minutes between looks at the sun: 2e-3 of a dose, 1e-3 SED at sunset."""
+    short = every(of_sun(day, first, first + length, latitude, SKIN)).sum(axis=1)
+    long = every(of_sun(day, first, 24.0, latitude, SKIN)).sum(axis=1)
+    assert np.all(np.isfinite(long))
+    assert np.all(short >= 0.0)
+    assert np.all(long >= short * (1.0 - 2e-3) - 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ((SUMMER, 16.0, 10.0, 40.0), "sun is asked for from 16 to 10 h"),
+        ((SUMMER, 10.0, 10.0, 40.0), "sun is asked for from 10 to 10 h"),
+        ((SUMMER, 10.0, 25.0, 40.0), "hour of sun is 25; allowed is 0 to 24"),
+        ((SUMMER, np.nan, 16.0, 40.0), "hour of sun is nan"),
+    ],
+)
+def test_bad_hours_of_sun_are_named(arguments, sentence):
+    with pytest.raises(InputError, match=sentence):
+        of_sun(*arguments, SKIN)
+
+
+def run(arguments, capsys):
+    assert main(arguments.split()) == 0
+    printed = capsys.readouterr()
+    return list(csv.DictReader(io.StringIO(printed.out))), printed.err
+
+
+def test_doses_of_all_kinds_together(capsys, tmp_path):
+    lamp = tmp_path / "a:lamp.csv"
+    lamp.write_text("wavelength_nm,irradiance_w_m2_nm\n297,0\n298,1\n299,0\n")
+    rows, notes = run(
+        f"dose --mmd 4 --med 2 --dose 90:30 --dose 0:6SED --dose 24:2.5mmd --uv-index 5:10:1 "
+        f"--spectrum 6:{lamp}:200 --sun 2025-06-22:10-11:30 --sun 2025-06-21:12-13 --latitude 40",
+        capsys,
+    )
+    assert [int(row["hour"]) for row in rows] == [0, 5, 6, 12, 24, 34, 35, 90]
+    sed = {int(row["hour"]): float(row["melanogenesis_sed"]) for row in rows}
+    assert [sed[hour] for hour in (0, 5, 24, 90)] == pytest.approx([6.0, 9.0, 10.0, 30.0])
+    assert sed[6] == pytest.approx(2.0, rel=1e-2)
+    for row in rows:
+        assert float(row["mmd_multiple"]) == pytest.approx(float(row["melanogenesis_sed"]) / 4.0)
+        assert float(row["med_multiple"]) == pytest.approx(float(row["thickening_sed"]) / 2.0)
+    assert "melanogenesis_action, 250 to 2500 nm: PROVISIONAL" in notes
+
+
+def test_doses_in_sed_say_nothing_of_estimates(capsys):
+    _, notes = run("dose --dose 0:30 --uv-index 3:5:1", capsys)
+    assert notes == ""
+
+
+def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
+    """Given erythema's, melanin counts as the thickness does, and nothing is provisional."""
+    own = tmp_path / "own.csv"
+    figure = figures()[ERYTHEMA]
+    rows = zip(figure.wavelengths, figure.values, strict=True)
+    own.write_text("".join(f"{nanometres},{value}\n" for nanometres, value in rows))
+    asked = "dose --sun 2025-06-21:12-13 --latitude 40 --figure melanogenesis_action="
+    (row,), notes = run(asked + str(own), capsys)
+    assert row["melanogenesis_sed"] == row["thickening_sed"]
+    assert "PROVISIONAL" not in notes
+
+
+def test_a_clock_and_a_start(capsys):
+    asked = "dose --sun 2025-06-21:12-13 --latitude 48 --longitude 11 --utc-offset 2 "
+    (row,), _ = run(asked + "--start 2025-06-20", capsys)
+    assert row["hour"] == "36"
+    (noon,), _ = run("dose --sun 2025-06-21:12-13 --latitude 48", capsys)
+    assert float(row["erythemal_sed"]) < float(noon["erythemal_sed"])
+
+
+def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
+    """Options of the sky, and a reading and a figure of one's own, as in the functions."""
+    asked = "dose --sun 2025-06-21:12-13 --latitude 40 "
+    (row,), _ = run(f"{asked} --ozone 400 --altitude 2000 --aerosol 0.3 --albedo 0.8", capsys)
+    sky = ClearSky(400.0, 2000.0, 0.3, 0.8)
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]), sky=sky)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    own = tmp_path / "dna.csv"
+    own.write_text("250,0\n2500,0\n")
+    more = f"--figure dna={own} --reading colloidal_melanin=solid"
+    (row,), _ = run(f"{asked} {more}", capsys)
+    known = replaced(figures(), "dna", own)
+    skin = tabulated(SPECIMENS["S3"], known=known, chosen=readings({"colloidal_melanin": "solid"}))
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin)
+    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
+    usual = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]))
+    assert expected.thickening[0] != pytest.approx(usual.thickening[0], rel=1e-3)
+
+
+def test_protection_on_the_command_line(capsys, tmp_path):
+    asked = "dose --sun 2025-06-21:12-13 --dose 0:8 --latitude 40 "
+    bare, _ = run(asked, capsys)
+    film = tmp_path / "film.csv"
+    film.write_text("wavelength_nm,absorbance\n290,1\n400,1\n")
+    for more, factor in (
+        ("--spf 16 --sunscreen-amount 0.5", 2.0),
+        ("--upf 15", 15.0),
+        (f"--sunscreen {film}", 10.0),
+        (f"--sunscreen {film} --sunscreen-amount 1 --upf 10", 10.0**1.5),
+    ):
+        rows, notes = run(asked + more, capsys)
+        for row, usual in zip(rows, bare, strict=True):
+            for name in ("erythemal_sed", "melanogenesis_sed", "thickening_sed"):
+                assert float(row[name]) == pytest.approx(float(usual[name]) / factor, rel=1e-6)
+    assert "film.csv at 1 mg/cm^2 is an SPF of 3.16" in notes
+
+
+def test_tan_takes_what_dose_prints(capsys):
+    """The same doses, by sun and as numbers, thickness included where the spectra agree."""
+    by_sun, _ = run("tan --sun 2025-06-21:12-13 --latitude 40 --hours 300", capsys)
+    (dose,), _ = run("dose --sun 2025-06-21:12-13 --latitude 40", capsys)
+    plain, _ = run(f"tan --dose 12:{dose['melanogenesis_sed']} --hours 300", capsys)
+    assert float(by_sun[-1]["total"]) > 1.05
+    assert float(by_sun[-1]["total"]) == pytest.approx(float(plain[-1]["total"]), abs=1e-8)
+
+
+def test_melanin_that_is_set_counts_for_the_minimal_doses(capsys):
+    """3.2 of the specimen that is asked for, be it named or not."""
+    asked = "dose --dose 0:1 --set basale_melanosomes=20 "
+    (named,), _ = run(asked + "--specimen S3", capsys)
+    (usual,), _ = run("dose --dose 0:1 --specimen S3", capsys)
+    assert run(asked, capsys)[0] == [named]
+    assert float(named["mmd_multiple"]) < 0.8 * float(usual["mmd_multiple"])
+
+
+def test_tan_by_multiples(capsys):
+    multiple, _ = run("tan --dose 0:2.5MMD --mmd 4 --hours 200", capsys)
+    plain, _ = run("tan --dose 0:10 --mmd 4 --hours 200", capsys)
+    assert multiple == plain
+
+
+def test_the_sun_needs_no_numba():
+    code = (
+        "import sys; sys.modules['numba'] = None; sys.modules['colour'] = None;"
+        "from hylios.commands.cli import main;"
+        "sys.exit(main('tan --sun 2025-06-21:12-13 --latitude 40 --hours 1'.split()))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ("--dose 30", "a dose is '30'; expected HOUR:SED"),
+        ("--dose 0:30MED", "dose is '30MED'; expected a number"),
+        ("--dose 0:MMD", "dose is ''; expected a number"),
+        ("--dose x:3", "hour of a dose is 'x'"),
+        ("--dose 0:nanMMD", "a dose is negative, not finite"),
+        ("--dose 0.5:3", "an hour of exposure is"),
+        ("--dose 0:3 --mmd 0", "MMD is 0 SED"),
+        ("--dose 0:3 --med nan", "MED is nan SED"),
+        ("--uv-index 0:10", "an exposure by UV index is '0:10'; expected HOUR:INDEX:HOURS"),
+        ("--uv-index 0:-1:1", "UV index is -1; allowed is 0 to 50"),
+        ("--uv-index 0:1:-1", "duration is -1 hours"),
+        ("--uv-index=-1:1:1", "an hour of exposure is"),
+        ("--sun 2025-06-21:10-16", "--sun needs --latitude"),
+        ("--latitude 40", "--latitude is given without --sun"),
+        ("--start 2025-06-21", "--start is given without --sun"),
+        ("--dose 0:3 --ozone 300", "--ozone is given without --sun"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --start 1900-01-01", "of exposure is 1099858;"),
+        ("--sun 2025-06-31:10-16 --latitude 40", "a date is '2025-06-31'"),
+        ("--sun 2025-06-21 --latitude 40", "expected DATE:FROM-TO"),
+        ("--sun 2025-06-21:10 --latitude 40", "expected DATE:FROM-TO"),
+        ("--sun 2025-06-21:16-10 --latitude 40", "sun is asked for from 16 to 10 h"),
+        ("--sun 2025-06-21:10-16:75 --latitude 40", "minute of sun is 75"),
+        ("--sun 2025-06-21:10-x --latitude 40", "hour of sun is 'x'"),
+        ("--sun 2025-06-21:10-26 --latitude 40", "hour of sun is 26; allowed is 0 to 24"),
+        ("--sun 1800-06-21:10-16 --latitude 40", "year of the sun is 1800"),
+        ("--sun 2025-06-21:10-16 --latitude 91", "latitude is 91 degrees"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --ozone 0", "ozone column is 0 Dobson units"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --start 2025-07-01", "lies before hour 0"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --utc-offset 2", "given without --longitude"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --specimen S7", "there is no specimen 'S7'"),
+        ("--spectrum 0:/none.csv:60", "the spectrum in /none.csv cannot be read"),
+        ("--spectrum 0:60", "expected HOUR:FILE:SECONDS"),
+        ("--dose 0:3 --spf 0", "SPF is 0; allowed is 1 to 10000"),
+        ("--dose 0:3 --upf -1", "UPF is -1"),
+        ("--dose 0:3 --spf 30 --sunscreen-amount -1", "amount of sunscreen is -1 mg/cm^2"),
+        ("--dose 0:3 --sunscreen-amount 1", "given without --spf or --sunscreen"),
+        ("--dose 0:3 --sunscreen /none.csv", "the spectrum in /none.csv cannot be read"),
+        ("--dose 0:3 --spf 30 --sunscreen /none.csv", "give only one"),
+    ],
+)
+@pytest.mark.parametrize("command", ["dose", "tan"])
+def test_bad_exposures_are_one_sentence_and_status_2(capsys, command, arguments, sentence):
+    assert main([command, *arguments.split()]) == 2
+    printed = capsys.readouterr()
+    assert sentence in printed.err
+    assert printed.err.count("\n") == 1
+    assert printed.out == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("wavelength_nm,power\n300,1\n310,1\n", "has no column irradiance_w_m2_nm"),
+        ("310,1\n300,1\n", "in ascending order"),
+        ("250,1\n300,1\n", "has light at 250 nm"),
+        ("300,1\n310,-1\n", "negative or not a number"),
+        ("300,1\n", "at least two wavelengths"),
+        ("300,1e308\n310,1e308\n", "too large; allowed is 0 to 1e+15 J/m^2/nm"),
+        ("", "it is empty"),
+        ("wavelength_nm,irradiance_w_m2_nm\n", "needs one or more wavelengths"),
+    ],
+)
+def test_a_bad_file_of_a_lamp_is_one_sentence(capsys, tmp_path, text, sentence):
+    file = tmp_path / "lamp.csv"
+    file.write_text(text)
+    assert main(["dose", "--spectrum", f"0:{file}:60"]) == 2
+    printed = capsys.readouterr()
+    assert sentence in printed.err
+    assert printed.err.count("\n") == 1
+
+
+def test_a_bad_file_of_a_sunscreen_is_one_sentence(capsys, tmp_path):
+    file = tmp_path / "film.csv"
+    file.write_text("wavelength_nm,blue\n290,0.1\n400,0.1\n")
+    assert main(["dose", "--dose", "0:30", "--sunscreen", str(file)]) == 2
+    assert "has no column transmittance" in capsys.readouterr().err

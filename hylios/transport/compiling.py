@@ -1,8 +1,8 @@
-"""Compilation of the kernels, kept between processes.
+"""Compilation of the kernels, kept between processes (`hylios.transport.kernel_cache`).
 
 numba's cache notices a change in the file of a compiled function, not in the functions that it
-calls from other files. But it does keep apart functions that are closures over different values:
-each kernel here is one over a digest of all sources of this package.
+calls from other files. But it keeps apart closures over different values: each kernel is one over
+a digest of all sources in this folder and in the kernel's own.
 
 Arrays are not counted by reference here (numba's `_nrt`): no kernel makes or keeps one, and
 counting, by locked instructions wherever one is passed on, took a third of the time. Nor are
@@ -10,18 +10,24 @@ divisions checked (`error_model`): what could be 0 is tested where it is divided
 """
 
 import hashlib
+import inspect
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from numba import njit
 
+from hylios.transport.kernel_cache import KernelCache
+
 _OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline": True, "error_model": "numpy"}
 
 
-def _digest_of_sources() -> str:
+@cache
+def digest_of_sources(folder: Path) -> str:
+    """Of all Python files in this folder and in another."""
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
+    for path in sorted({*Path(__file__).parent.glob("*.py"), *folder.glob("*.py")}):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
@@ -32,11 +38,13 @@ def kernel(make: Callable[[str], Callable]) -> Callable:
     It runs without the interpreter's lock. Where no folder can be written it is compiled anew in
     every process.
     """
-    function = make(_digest_of_sources())
+    function = make(digest_of_sources(Path(inspect.getfile(make)).parent))
+    compiled: Any = njit(nogil=True, **_OPTIONS)(function)
     try:
-        return njit(nogil=True, cache=True, **_OPTIONS)(function)
+        compiled._cache = KernelCache(function)
     except RuntimeError:
-        return njit(nogil=True, **_OPTIONS)(function)
+        pass
+    return compiled
 
 
 def part(function: Callable) -> Callable:

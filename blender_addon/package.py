@@ -1,135 +1,179 @@
-"""Writes the extension's zip: `python -m blender_addon.package`.
+"""Writes the extension's zip: `python -m blender_addon.package`, from the root of a checkout.
 
-The zip holds this add-on, the tables in its folder and a wheel of the part of hylios that needs
-numpy alone. Blender's own extension tool builds and validates it.
+The zip holds the files of this add-on that git tracks, the licence, and a wheel of what a scene
+needs of hylios. Its bytes depend on these files alone: names are sorted, times and modes fixed,
+and nothing is compressed, as versions of zlib differ. Blender's own extension tool validates it.
 """
 
 import argparse
+import base64
 import hashlib
-import json
+import io
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
+import tomllib
+from collections.abc import Mapping
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipInfo
+from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 import bpy
-from wheel.wheelfile import WheelFile
 
-import hylios
 from hylios.errors import InputError
+from hylios.files import written_beside
 
 ADDON = Path(__file__).parent
-HYLIOS = Path(hylios.__file__).parent
+ROOT = ADDON.parent
 NOT_CARRIED = ("lab", "transport", "commands")
-"""Rooms of `hylios` that a scene never needs, as `tests/project/test_layout.py` holds them."""
+"""Rooms of `hylios` that a scene never needs; the wheel holds all others."""
 
 MANIFEST = "blender_manifest.toml"
-# The first day that a zip can hold: the same sources give the same bytes.
-EPOCH = (1980, 1, 1, 0, 0, 0)
-EPOCH_SECONDS = 315532800
+LICENSE = "LICENSE"
+FIRST_DAY = (1980, 1, 1, 0, 0, 0)
+"""The first time that a zip can hold: the time of every file in it."""
 
 
-def build(destination: Path, tables: Path = ADDON / "tables") -> Path:
-    """Build and validate the extension with the EXR files of a folder, and return its path.
+def build(destination: Path, root: Path = ROOT) -> Path:
+    """Build and validate the extension from the checkout `root`, and return the zip's path.
 
     Raises
     ------
     InputError
-        If Blender's extension tool refuses it, with what the tool said.
+        If `root` is no git checkout, if the zip cannot be written, or if Blender's extension
+        tool refuses it.
+    OSError
+        If a tracked file is missing or the folder cannot be made.
     """
+    files = extension_files(root)
+    manifest = tomllib.loads(files[MANIFEST].decode())
     destination.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as folder:
-        staged, built = Path(folder, "skin_tan"), Path(folder, "built")
-        built.mkdir()
-        _stage(staged, tables)
-        _extension_tool("build", "--source-dir", str(staged), "--output-dir", str(built))
-        (archive,) = built.glob("*.zip")
-        _extension_tool("validate", str(archive))
-        return Path(shutil.move(archive, destination / archive.name))
+    path = destination / f"{manifest['id']}-{manifest['version']}.zip"
+    with written_beside(path) as unfinished:
+        unfinished.write_bytes(zipped(files))
+        _extension_tool("validate", str(unfinished))
+    return path
 
 
-def hylios_files() -> list[str]:
-    """Paths within hylios of what the add-on carries: all but the rooms of `NOT_CARRIED`."""
-    return sorted(
-        path.relative_to(HYLIOS).as_posix()
-        for path in HYLIOS.rglob("*")
-        if path.is_file()
-        and "__pycache__" not in path.parts
-        and path.relative_to(HYLIOS).parts[0] not in NOT_CARRIED
-    )
+def extension_files(root: Path = ROOT) -> dict[str, bytes]:
+    """Contents of the extension's zip by name, with the wheel among them.
+
+    Raises
+    ------
+    InputError
+        If `root` is no git checkout.
+    """
+    addon = f"{ADDON.name}/"
+    left_out = addon + Path(__file__).name
+    names = [name for name in tracked(root, addon) if name != left_out]
+    files = {name.removeprefix(addon): (root / name).read_bytes() for name in names}
+    wheel, content = wheel_of_hylios(root)
+    manifest = f'wheels = ["./wheels/{wheel}"]\n'.encode() + files[MANIFEST]
+    license_text = (root / LICENSE).read_bytes()
+    return {**files, MANIFEST: manifest, LICENSE: license_text, f"wheels/{wheel}": content}
 
 
-def write_wheel(folder: Path) -> Path:
-    """Write the wheel of hylios's numpy-only part into a folder and return its path.
+def hylios_files(root: Path = ROOT) -> list[str]:
+    """Names within hylios of what the add-on carries: all but the rooms of `NOT_CARRIED`."""
+    names = (name.removeprefix("hylios/") for name in tracked(root, "hylios/"))
+    return [name for name in names if name.split("/")[0] not in NOT_CARRIED]
+
+
+def wheel_of_hylios(root: Path = ROOT) -> tuple[str, bytes]:
+    """Name and content of the wheel of what a scene needs of hylios.
 
     Blender keeps an installed wheel as long as its name stays the same, so the version carries
     a digest of what is inside.
     """
-    contents = {f"hylios/{name}": (HYLIOS / name).read_bytes() for name in hylios_files()}
-    digest = hashlib.sha256(b"\0".join(contents.values())).hexdigest()[:12]
-    version = f"{hylios.__version__}+{digest}"
+    files = {f"hylios/{name}": (root / "hylios" / name).read_bytes() for name in hylios_files(root)}
+    manifest = tomllib.loads((root / ADDON.name / MANIFEST).read_text(encoding="utf-8"))
+    version = f"{manifest['version']}+{hashlib.sha256(zipped(files)).hexdigest()[:12]}"
     information = f"hylios-{version}.dist-info"
-    contents[f"{information}/METADATA"] = (
+    files[f"{information}/licenses/{LICENSE}"] = (root / LICENSE).read_bytes()
+    files[f"{information}/METADATA"] = (
         f"Metadata-Version: 2.4\nName: hylios\nVersion: {version}\n"
-        "Summary: Tanning dynamics and look-up tables of skin\n"
-        "License-Expression: GPL-3.0-or-later\nRequires-Dist: numpy\n"
+        "Summary: Skin, sun, tanning and look-up tables of HyLIoS\n"
+        f"License-Expression: GPL-3.0-or-later\nLicense-File: {LICENSE}\nRequires-Dist: numpy\n"
     ).encode()
-    contents[f"{information}/WHEEL"] = (
+    files[f"{information}/WHEEL"] = (
         b"Wheel-Version: 1.0\nGenerator: blender_addon.package\n"
         b"Root-Is-Purelib: true\nTag: py3-none-any\n"
     )
-    path = folder / f"hylios-{version}-py3-none-any.whl"
-    with WheelFile(path, "w") as archive:
-        for name, data in contents.items():
-            member = ZipInfo(name, EPOCH)
-            member.compress_type = ZIP_DEFLATED
-            member.external_attr = 0o644 << 16
-            archive.writestr(member, data)
-    return path
+    record = f"{information}/RECORD"
+    lines = [f"{name},sha256={_digest(files[name])},{len(files[name])}\n" for name in sorted(files)]
+    files[record] = f"{''.join(lines)}{record},,\n".encode()
+    return f"hylios-{version}-py3-none-any.whl", zipped(files)
 
 
-def _stage(staged: Path, tables: Path) -> None:
-    """Lay out the extension as it is to be packed."""
-    for folder in (staged, staged / "tables", staged / "wheels"):
-        folder.mkdir()
-    for source in ADDON.glob("*.py"):
-        if source.name != Path(__file__).name:
-            shutil.copy(source, staged)
-    for table in tables.glob("*.exr"):
-        shutil.copy(table, staged / "tables")
-    wheel = write_wheel(staged / "wheels")
-    files = [path for path in staged.rglob("*") if path.is_file() and path != wheel]
-    packed = sorted(path.relative_to(staged).as_posix() for path in files)
-    (staged / MANIFEST).write_text(
-        f'wheels = ["./wheels/{wheel.name}"]\n{(ADDON / MANIFEST).read_text()}\n'
-        f"[build]\npaths = {json.dumps(packed)}\n"
-    )
-    for path in staged.rglob("*"):
-        path.chmod(0o755 if path.is_dir() else 0o644)
-        os.utime(path, (EPOCH_SECONDS, EPOCH_SECONDS))
+def zipped(files: Mapping[str, bytes]) -> bytes:
+    """A zip of files by name whose bytes depend on the names and contents alone."""
+    buffer = io.BytesIO()
+    with ZipFile(buffer, "w") as archive:
+        for name in sorted(files):
+            member = ZipInfo(name, FIRST_DAY)
+            member.compress_type = ZIP_STORED
+            member.create_system = 3  # Unix, wherever it is written
+            member.external_attr = 0o100644 << 16
+            archive.writestr(member, files[name])
+    return buffer.getvalue()
+
+
+def tracked(root: Path, folder: str) -> list[str]:
+    """Sorted names, from `root`, of the files in a folder that git tracks.
+
+    Raises
+    ------
+    InputError
+        If `root` is no git checkout that tracks files there.
+    """
+    names = _git_files(root, folder)
+    if not names:
+        raise InputError(f"The zip holds what git tracks, and git tracks no {folder} in {root}.")
+    return names
+
+
+def untracked(root: Path = ROOT) -> list[str]:
+    """Sorted names of files beside the packed ones that git neither tracks nor ignores."""
+    return _git_files(root, "--others", "--exclude-standard", f"{ADDON.name}/", "hylios/")
+
+
+def _git_files(root: Path, *arguments: str) -> list[str]:
+    # In a git hook these variables name another repository.
+    environment = {name: text for name, text in os.environ.items() if not name.startswith("GIT_")}
+    command = ["git", "-C", str(root), "ls-files", "-z", *arguments]
+    try:
+        listed = subprocess.run(command, capture_output=True, text=True, env=environment)
+    except FileNotFoundError as error:
+        raise InputError("The zip holds what git tracks, and git is not installed.") from error
+    if listed.returncode:
+        said = " ".join(listed.stderr.split())
+        raise InputError(f"The zip holds what git tracks, and {root} is no checkout of it: {said}")
+    return sorted(filter(None, listed.stdout.split("\0")))
+
+
+def _digest(content: bytes) -> str:
+    return base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
 
 
 def _extension_tool(*arguments: str) -> None:
     folder = bpy.utils.system_resource("SCRIPTS", path="addons_core/bl_pkg/cli")
     tool = [sys.executable, str(Path(folder, "blender_ext.py"))]
-    # A zip holds local times.
-    environment = {**os.environ, "TZ": "UTC"}
-    done = subprocess.run([*tool, *arguments], capture_output=True, text=True, env=environment)
+    done = subprocess.run([*tool, *arguments], capture_output=True, text=True)
     if done.returncode:
         said = " ".join((done.stdout + done.stderr).split())
         raise InputError(f"Blender's extension tool refuses to {arguments[0]}: {said}")
 
 
 def main() -> int:
+    """Build the zip and print its path; status 2 and a sentence where that fails."""
     parser = argparse.ArgumentParser(prog="python -m blender_addon.package", description=__doc__)
     parser.add_argument(
         "--output-dir", type=Path, default=Path("dist"), help="folder for the zip (default: dist)"
     )
+    arguments = parser.parse_args()
     try:
-        print(build(parser.parse_args().output_dir))
+        print(build(arguments.output_dir))
+        for name in untracked():
+            print(f"Not packed, as git does not track it: {name}", file=sys.stderr)
     except (InputError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

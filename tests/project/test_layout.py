@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from blender_addon.package import NOT_CARRIED
+
 ROOT = Path(__file__).parent.parent.parent
 STANDARD = set(sys.stdlib_module_names)
 
@@ -21,12 +23,9 @@ ALLOWED = {
     "lut_builder/scene_axes.py": {"numpy", "scipy", "hylios"},
     "lut_builder/trade/figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
-    "blender_addon/package.py": {"bpy", "wheel", "hylios"},
+    "blender_addon/package.py": {"bpy", "hylios"},
 }
 """What each room may import besides the standard library and itself; the longest match counts."""
-
-NOT_CARRIED = ("lab", "transport", "commands")
-"""Rooms of `hylios` that a scene never needs; the add-on carries and may use all others."""
 
 
 def imported(path):

@@ -1,4 +1,4 @@
-# make demo | figures | test | test-all | bench | package, each sets up what it needs in VENV first.
+# make demo | figures | test | test-all | bench | docs | package, each sets up what it needs in VENV first.
 # PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS).
 PYTHON ?=
 VENV ?= .venv
@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 # The matrices here are small: threads of BLAS would cost them ten times their own time.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: demo figures simplifications agreement test test-all lint bench package environment
+.PHONY: demo figures simplifications agreement test test-all lint bench docs package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
@@ -41,6 +41,13 @@ simplifications: environment
 # an hour.
 agreement: environment
 	@$(BIN)/python -m examples.agreement $(if $(RAYS),--rays $(RAYS))
+
+# The site, into out/docs. What only Sphinx needs is installed once; building fetches nothing.
+docs: environment
+	@$(BIN)/python -c "import furo, myst_nb" 2>/dev/null || \
+	    $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
+	@$(BIN)/python -m sphinx -W --keep-going -q -b html docs out/docs
+	@echo "out/docs/index.html"
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

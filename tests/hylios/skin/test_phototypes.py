@@ -254,9 +254,9 @@ def test_fitting_writes_the_file_whole(tmp_path, monkeypatch):
     assert [each.name for each in tmp_path.iterdir()] == ["fitted.toml"]
 
 
-def test_the_readme_has_the_types_as_they_are():
-    readme = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
-    rows = re.findall(r"^\| (I|II|III|IV|V|VI) \|(.*)\|$", readme, re.MULTILINE)
+def test_the_page_of_skin_types_has_them_as_they_are():
+    page = (Path(__file__).parents[3] / "docs" / "skin_types.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (I|II|III|IV|V|VI) \|(.*)\|$", page, re.MULTILINE)
     assert [name for name, _ in rows] == list(PHOTOTYPES)
     for name, text in rows:
         people, subjects, rmse, apart, pigmentation, mmd, med = map(str.strip, text.split("|"))

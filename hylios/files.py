@@ -8,6 +8,9 @@ from pathlib import Path
 
 from hylios.errors import InputError
 
+HALF_WRITTEN = ".skin-tan-"
+"""What the name of a file begins with while it is being written."""
+
 
 def require_target(target: Path, suffixes: tuple[str, ...], replacing: bool) -> None:
     """Raise InputError where a file could not be written in the end; call it before the work.
@@ -42,7 +45,7 @@ def written_beside(target: Path) -> Iterator[Path]:
     """
     beside = None
     try:
-        handle, name = tempfile.mkstemp(prefix=".", suffix=target.suffix, dir=target.parent)
+        handle, name = tempfile.mkstemp(prefix=HALF_WRITTEN, suffix=target.suffix, dir=target.parent)
         os.close(handle)
         beside = Path(name)
         yield beside

@@ -16,7 +16,9 @@ from hylios.spectra import Figures, estimates_within, figures
 from hylios.table import SkinTable, described_dynamics
 from hylios.tissue import FIGURES, readings
 from lut_builder.axes import choose_axes, needed_knots
-from lut_builder.jobs.work import Unit, done, in_threads
+from lut_builder.jobs.local import in_threads
+from lut_builder.jobs.run import run_units
+from lut_builder.jobs.units import Unit
 from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelengths
 from lut_builder.settings import Settings
 
@@ -96,7 +98,7 @@ def build(
     """
     request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
     runner = in_threads(threads or cpu_count() or 1)
-    return assembled(request, done(units(request), None, "", runner))
+    return assembled(request, run_units(units(request), None, "", runner))
 
 
 def assembled(request: Request, results: Results) -> SkinTable:

@@ -42,7 +42,7 @@ from lut_builder.trade.pareto import (
 )
 
 if TYPE_CHECKING:
-    from lut_builder.jobs.work import Runner
+    from lut_builder.jobs.run import Runner
 
 # numba, colour-science and OpenImageIO take a second or more: only the commands import them.
 
@@ -249,8 +249,10 @@ def _build(asked: argparse.Namespace) -> None:
     made_for = chosen_tanning_skin(asked, asked.untanned)
 
     from lut_builder.assemble import assembled, requested, units
+    from lut_builder.commands.resumable import resumable
     from lut_builder.exr import write_table
-    from lut_builder.jobs.work import done, software_digest, unfinished
+    from lut_builder.jobs.run import run_units
+    from lut_builder.jobs.software import software_digest
     from lut_builder.schedule import reached_states, read_schedule
 
     reached = None
@@ -262,14 +264,15 @@ def _build(asked: argparse.Namespace) -> None:
     )
     wanted, whole = len(request.states), request.whole
     work = units(request)
-    with unfinished(asked.output, (".exr",), resume=asked.resume, force=asked.force) as folder:
+    with resumable(asked, ".exr") as unfinished:
         if reached is not None:
             saved = f"{1.0 - wanted / whole:.0%}" if wanted < whole else "none"
             print(f"states for the scene: {wanted}, for any sun: {whole}; {saved} saved")
         runner = _runner(asked, sum(each.size for each in work))
-        found = done(work, folder, software_digest(), runner, f"table of {wanted} states")
+        label = f"table of {wanted} states"
+        found = run_units(work, unfinished.folder, software_digest(), runner, label)
         table = assembled(request, found)
-        write_table(folder / asked.output.name, table, half=settings.half)
+        write_table(unfinished.result, table, half=settings.half)
     cut = table.provenance["states_with_melanin_cut"]
     if cut:
         print(f"note: {cut} of {wanted} states would overfill a layer with melanin; cut")
@@ -278,7 +281,7 @@ def _build(asked: argparse.Namespace) -> None:
 
 def _runner(asked: argparse.Namespace, seconds: float) -> "Runner":
     """Where the units are done: on a cluster, in this process if they are short, or in several."""
-    from lut_builder.jobs.work import in_processes, in_threads
+    from lut_builder.jobs.local import in_processes, in_threads
 
     if asked.dask is not None:
         from lut_builder.jobs.cluster import on_cluster

@@ -1,8 +1,12 @@
-"""The units of `lut_builder.jobs.work` on the machines of a Dask cluster.
+"""Running units on the machines of a Dask cluster.
 
-Only what a unit found comes back, as bytes; keeping it is the caller's, as with local processes.
+Only a unit's results come back, as bytes; keeping them is the caller's, as with local processes.
 The workers need this project and its libraries in the same versions, or their results would not
 be the same bytes: each is asked for the digest of its software. The scheduler needs Dask alone.
+
+Dask trusts whoever it talks to: this process unpickles what the scheduler sends, and the workers
+whatever comes to them. Give the address of none but a scheduler of your own, in a network of your
+own or with TLS.
 """
 
 import logging
@@ -17,7 +21,9 @@ from threading import Thread
 from urllib.parse import urlsplit
 
 from hylios.errors import InputError
-from lut_builder.jobs.work import Runner, Unit, performed_alone, software_digest
+from lut_builder.jobs.run import Runner
+from lut_builder.jobs.software import software_digest
+from lut_builder.jobs.units import Unit, perform_alone
 
 PATIENCE = 10.0
 """How long to wait for the scheduler's answer and for a first worker, in seconds."""
@@ -45,7 +51,7 @@ def on_cluster(address: str) -> Runner:
     def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
         with _connected(address) as client:
             _require_same_software(client, software)
-            yield from _performing(client, address, units, software)
+            yield from _perform(client, address, units, software)
 
     return run
 
@@ -137,7 +143,7 @@ def _other_software(worker: str) -> InputError:
     )
 
 
-def _performing(
+def _perform(
     client, address: str, units: Sequence[Unit], software: str
 ) -> Generator[tuple[Unit, bytes], None, None]:
     from distributed import CancelledError, KilledWorker, as_completed
@@ -169,19 +175,19 @@ def _performing(
 
 
 class _Call:
-    """Becomes, when it is unpickled, what `_performed_here` gives for its arguments."""
+    """Becomes, when it is unpickled, what `_perform_here` gives for its arguments."""
 
     def __init__(self, *arguments):
         self.arguments = arguments
 
     def __reduce__(self):
-        return _performed_here, self.arguments
+        return _perform_here, self.arguments
 
 
-def _performed_here(unit: Unit, software: str) -> bytes:
-    """`performed_alone` on a worker, which may have come after the others were asked."""
+def _perform_here(unit: Unit, software: str) -> bytes:
+    """`perform_alone` on a worker, which may have come after the others were asked."""
     if software_digest() != software:
         from distributed import get_worker
 
         raise _other_software(get_worker().address)
-    return performed_alone(unit, software)
+    return perform_alone(unit, software)

@@ -10,11 +10,15 @@ import numpy as np
 
 from hylios.commands.shell import run
 from hylios.errors import InputError
+from lut_builder.commands.resumable import resumable
 from lut_builder.jobs.cluster import on_cluster
-from lut_builder.jobs.work import Unit, done, in_processes, in_threads, software_digest, unfinished
+from lut_builder.jobs.local import in_processes, in_threads
+from lut_builder.jobs.run import run_units
+from lut_builder.jobs.software import software_digest
+from lut_builder.jobs.units import Unit
 
 
-def walk(seed, length, pause=0.0):
+def walk(seed, length, pause=0.0, load=b""):
     """A random walk, its length and its ends; the product depends on the threads of BLAS."""
     time.sleep(pause)
     steps = np.random.default_rng(seed).normal(size=(length, 3))
@@ -40,25 +44,26 @@ def local_runner(processes):
     return in_threads(1) if processes == 1 else in_processes(processes)
 
 
-def make(asked):
-    with unfinished(asked.target, (".bin",), resume=asked.resume, force=asked.force) as folder:
-        runner = on_cluster(asked.dask) if asked.dask else local_runner(asked.processes)
-        found = done(walks(asked.count, asked.pause), folder, software_digest(), runner, "walks")
-        content = b"".join(array.tobytes() for each in found.values() for array in each.values())
-        (folder / asked.target.name).write_bytes(content)
+def make(arguments):
+    with resumable(arguments, ".bin") as work:
+        local = local_runner(arguments.processes)
+        runner = on_cluster(arguments.dask) if arguments.dask else local
+        units = walks(arguments.count, arguments.pause)
+        results = run_units(units, work.folder, software_digest(), runner, "walks")
+        arrays = [array for unit in results.values() for array in unit.values()]
+        work.result.write_bytes(b"".join(array.tobytes() for array in arrays))
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("target", type=Path)
+    parser.add_argument("output", type=Path)
     parser.add_argument("--count", type=int, default=30)
     parser.add_argument("--pause", type=float, default=0.0)
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--dask")
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--force", action="store_true")
-    asked = parser.parse_args()
-    return run(make, asked)
+    return run(make, parser.parse_args())
 
 
 def command(*arguments):

@@ -18,7 +18,10 @@ import hylios
 from hylios.errors import InputError
 from lut_builder.jobs import cluster
 from lut_builder.jobs.cluster import on_cluster
-from lut_builder.jobs.work import Unit, done, in_threads, performed, software_digest, unpacked
+from lut_builder.jobs.local import in_threads
+from lut_builder.jobs.run import run_units
+from lut_builder.jobs.software import software_digest
+from lut_builder.jobs.units import Unit, perform, unpacked
 
 pytest.importorskip("distributed")
 
@@ -126,9 +129,9 @@ def test_ctrl_c_takes_the_units_back_and_local_processes_can_go_on(started, tmp_
     assert said.endswith(f"kept in {folder}: give --resume to go on with it.\n")
     # The worker is free: its queue of some nine seconds is gone.
     before = time.monotonic()
-    found = done(walks(1), None, software_digest(), on_cluster(started.address))
+    results = run_units(walks(1), None, software_digest(), on_cluster(started.address))
     assert time.monotonic() - before < 7.0
-    assert list(found) == ["walk-0"]
+    assert list(results) == ["walk-0"]
     assert made(target, "--resume").returncode == 0
     assert made(tmp_path / "whole.bin").returncode == 0
     assert target.read_bytes() == (tmp_path / "whole.bin").read_bytes()
@@ -138,10 +141,10 @@ def test_an_exception_of_a_unit_is_raised_and_a_lost_scheduler_is_one_sentence(s
     started.worker()
     units = [Unit("a", fail, ("InputError",)), *walks(2)]
     with pytest.raises(InputError, match="^it is 7.$"):
-        done(units, None, software_digest(), on_cluster(started.address))
+        run_units(units, None, software_digest(), on_cluster(started.address))
     with pytest.raises(ZeroDivisionError):
         unit = Unit("a", fail, ("ZeroDivisionError",))
-        done([unit], None, software_digest(), on_cluster(started.address))
+        run_units([unit], None, software_digest(), on_cluster(started.address))
     spread = on_cluster(started.address)(walks(30, pause=0.1), software_digest())
     next(spread)
     started.scheduler.kill()
@@ -155,7 +158,7 @@ def test_a_unit_that_brings_workers_down_is_one_sentence(started, tmp_path):
     started.worker(nanny="--nanny")
     units = [*walks(3), Unit("z", die, (), size=0.1)]
     with pytest.raises(InputError, match="brought down one Dask worker of tcp://127"):
-        done(units, tmp_path, software_digest(), on_cluster(started.address))
+        run_units(units, tmp_path, software_digest(), on_cluster(started.address))
 
 
 def test_a_worker_with_other_software_is_one_sentence(started, tmp_path):
@@ -169,7 +172,7 @@ def test_a_worker_with_other_software_is_one_sentence(started, tmp_path):
     for path in (tmp_path / "other", ""):
         worker = started.worker(path)
         with pytest.raises(InputError, match="the Dask worker .* lacks this project or"):
-            done(walks(2), None, software_digest(), spread)
+            run_units(walks(2), None, software_digest(), spread)
         worker.kill()
         worker.wait()
 
@@ -177,20 +180,20 @@ def test_a_worker_with_other_software_is_one_sentence(started, tmp_path):
 def test_a_worker_is_asked_again_with_each_unit(monkeypatch):
     """It may have come after the others were asked."""
     unit = walks(1)[0]
-    local = performed(unit, software_digest())
-    assert cluster._performed_here(unit, software_digest()) == local
-    assert unpacked(local).keys() == done([unit], None, "1", in_threads(1))["walk-0"].keys()
+    local = perform(unit, software_digest())
+    assert cluster._perform_here(unit, software_digest()) == local
+    assert unpacked(local).keys() == run_units([unit], None, "1", in_threads(1))["walk-0"].keys()
     import distributed
 
     monkeypatch.setattr(distributed, "get_worker", lambda: type("", (), {"address": "tcp://w:1"}))
     with pytest.raises(InputError, match="the Dask worker tcp://w:1 lacks"):
-        cluster._performed_here(unit, "other")
+        cluster._perform_here(unit, "other")
 
 
 def test_a_cluster_without_workers_is_one_sentence(started, monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     with pytest.raises(InputError, match=f"^the Dask scheduler {started.address} has no workers.$"):
-        done(walks(1), None, "1", on_cluster(started.address))
+        run_units(walks(1), None, "1", on_cluster(started.address))
 
 
 @pytest.mark.parametrize(
@@ -204,7 +207,7 @@ def test_a_cluster_without_workers_is_one_sentence(started, monkeypatch):
 )
 def test_an_address_that_is_none_is_one_sentence(address, sentence):
     with pytest.raises(InputError) as raised:
-        done(walks(1), None, "1", on_cluster(address))
+        run_units(walks(1), None, "1", on_cluster(address))
     assert sentence in str(raised.value)
 
 
@@ -214,12 +217,12 @@ def test_a_scheduler_that_is_not_there_is_one_sentence(monkeypatch):
     with socket.create_server(("127.0.0.1", 0)) as other:
         address = f"tcp://127.0.0.1:{other.getsockname()[1]}"
         with pytest.raises(InputError, match=f"{address} does not answer."):
-            done(walks(1), None, "1", on_cluster(address))
+            run_units(walks(1), None, "1", on_cluster(address))
     with pytest.raises(InputError, match=f"{address} cannot be reached: .*refused."):
-        done(walks(1), None, "1", on_cluster(address))
+        run_units(walks(1), None, "1", on_cluster(address))
 
 
 def test_without_distributed_it_is_one_sentence(monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match="needs the package distributed: pip install"):
-        done(walks(1), None, "1", on_cluster("tcp://127.0.0.1:1"))
+        run_units(walks(1), None, "1", on_cluster("tcp://127.0.0.1:1"))

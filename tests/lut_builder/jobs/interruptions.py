@@ -11,12 +11,12 @@ import numpy as np
 def environment():
     """Environment of a command that imports this project and the modules of these tests."""
     here = Path(__file__).parent
-    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(here.parent.parent), str(here)])}
+    return {**os.environ, "PYTHONPATH": os.pathsep.join([str(here.parents[2]), str(here)])}
 
 
 def units_in(folder):
     """Number of units that are done."""
-    return len(list(folder.glob("[!.]*.unit"))) if folder.is_dir() else 0
+    return len(list(folder.glob("skin-tan-*.unit"))) if folder.is_dir() else 0
 
 
 def killed_and_resumed(command, target, kills, seed, pause):
@@ -30,7 +30,7 @@ def killed_and_resumed(command, target, kills, seed, pause):
     command : list of str
         It resumes unfinished work.
     target : Path
-        Of the file that it makes; units are in the folder of `lut_builder.jobs.work.unfinished`.
+        Of the file that it makes; units are in the folder of `lut_builder.jobs.unfinished`.
     pause : float
         About the time of a unit in seconds.
 

@@ -1,0 +1,99 @@
+"""Running units on this machine: in threads of this process, or in processes of their own."""
+
+import os
+import signal
+import threading
+from collections.abc import Generator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import active_children, get_context
+from multiprocessing.connection import Connection
+
+from threadpoolctl import threadpool_limits
+
+from hylios.errors import InputError
+from lut_builder.jobs.interrupts import interrupts_held
+from lut_builder.jobs.run import Runner
+from lut_builder.jobs.units import Unit, perform
+
+
+def in_threads(count: int) -> Runner:
+    """Runner of up to so many threads of this process, which spares the start of others.
+
+    They share the interpreter, and a kernel that is running delays Ctrl-C to its end: for work
+    of seconds.
+    """
+
+    def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
+        pool = ThreadPoolExecutor(count)
+        try:
+            with threadpool_limits(1):
+                yield from _as_they_end(pool, units, software)
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+    return run
+
+
+def in_processes(count: int) -> Runner:
+    """Runner of up to so many processes of this machine.
+
+    Its exceptions are those of the units; InputError if a process is ended from outside.
+    """
+
+    def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
+        context = get_context("spawn")
+        # This process alone holds the writing end: however it ends, that is closed, and the others
+        # notice.
+        reader, writer = context.Pipe(duplex=False)
+        others = set(active_children())
+        pool = ProcessPoolExecutor(
+            min(count, len(units)), context, initializer=_prepare, initargs=(reader,)
+        )
+        try:
+            yield from _as_they_end(pool, units, software)
+            pool.shutdown()
+        except BrokenProcessPool as error:
+            raise InputError(
+                "a process at work was ended from outside; was there too little memory for as many?"
+            ) from error
+        finally:
+            # A pool has no way (before Python 3.14) to end what its processes are at.
+            for process in set(active_children()) - others:
+                process.kill()
+            pool.shutdown(cancel_futures=True)
+            writer.close()
+            reader.close()
+
+    return run
+
+
+def _as_they_end(
+    pool: Executor, units: Sequence[Unit], software: str
+) -> Generator[tuple[Unit, bytes], None, None]:
+    with interrupts_held():
+        unit_of = {pool.submit(perform, unit, software): unit for unit in units}
+    broken = None
+    for future in as_completed(list(unit_of)):
+        unit = unit_of.pop(future)
+        try:
+            content = future.result()
+        except BrokenProcessPool as error:
+            broken = error  # others may have ended before it broke
+        else:
+            yield unit, content
+    if broken:
+        raise broken
+
+
+def _prepare(reader: Connection) -> None:
+    """What a process does before its first unit."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, args=(reader,), daemon=True).start()
+    threadpool_limits(1)
+
+
+def _end_with_parent(reader: Connection) -> None:
+    """A pool's processes go on by themselves when the one that started them was killed."""
+    reader.poll(None)
+    os._exit(1)

@@ -45,7 +45,7 @@ def written_beside(target: Path) -> Iterator[Path]:
     """
     beside = None
     try:
-        handle, name = tempfile.mkstemp(prefix=HALF_WRITTEN, suffix=target.suffix, dir=target.parent)
+        handle, name = tempfile.mkstemp(target.suffix, HALF_WRITTEN, target.parent)
         os.close(handle)
         beside = Path(name)
         yield beside

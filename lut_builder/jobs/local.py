@@ -7,7 +7,7 @@ from collections.abc import Generator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import active_children, get_context
-from multiprocessing.connection import Connection
+from typing import Protocol
 
 from threadpoolctl import threadpool_limits
 
@@ -15,6 +15,14 @@ from hylios.errors import InputError
 from lut_builder.jobs.interrupts import interrupts_held
 from lut_builder.jobs.run import Runner
 from lut_builder.jobs.units import Unit, perform
+
+
+class Pipe(Protocol):
+    """The reading end of a pipe, on any system."""
+
+    def poll(self, timeout: float | None) -> bool:
+        """Wait until something can be read, or the writing end is closed."""
+        ...
 
 
 def in_threads(count: int) -> Runner:
@@ -86,14 +94,14 @@ def _as_they_end(
         raise broken
 
 
-def _prepare(reader: Connection) -> None:
+def _prepare(reader: Pipe) -> None:
     """What a process does before its first unit."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, args=(reader,), daemon=True).start()
     threadpool_limits(1)
 
 
-def _end_with_parent(reader: Connection) -> None:
+def _end_with_parent(reader: Pipe) -> None:
     """A pool's processes go on by themselves when the one that started them was killed."""
     reader.poll(None)
     os._exit(1)

@@ -54,10 +54,11 @@ def run_units(
     if len({unit.name.lower() for unit in units}) < len(units):
         raise ValueError("two units have the same name, for a file system that ignores case")
     results: dict[str, Arrays] = {}
-    for unit in units if folder else ():
-        kept = _kept(unit_file(folder, unit.name), unit_digest(unit, software))
-        if kept is not None:
-            results[unit.name] = kept
+    if folder:
+        for unit in units:
+            kept = _kept(unit_file(folder, unit.name), unit_digest(unit, software))
+            if kept is not None:
+                results[unit.name] = kept
     # The largest first, lest one process is left with it when all others have ended.
     missing = [unit for unit in units if unit.name not in results]
     missing.sort(key=lambda unit: -unit.size)

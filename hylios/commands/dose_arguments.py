@@ -18,7 +18,8 @@ from hylios.commands.shell import (
     number,
 )
 from hylios.errors import InputError, require_range
-from hylios.readers.spectrum import read_columns
+from hylios.readers.spectrum import read_irradiance, read_transmittance
+from hylios.readers.text import name_of
 from hylios.skin import Skin
 from hylios.spectra import Figures
 from hylios.sun.action_spectra import FIRST_NM, LAST_NM, MELANOGENESIS, Absorptance
@@ -205,7 +206,7 @@ def _protection(asked: argparse.Namespace) -> Protection:
     if asked.spf is not None:
         layers.append(sunscreen(asked.spf, amount))
     elif asked.sunscreen is not None:
-        film = sunscreen_film(*_transmittance(asked.sunscreen), amount)
+        film = sunscreen_film(*read_transmittance(asked.sunscreen), amount)
         passed = film.of_sunlight()
         spf = f"{1.0 / passed:.3g}" if passed > 0.0 else "infinite"
         print(f"note: {asked.sunscreen} at {amount:g} mg/cm^2 is an SPF of {spf}", file=sys.stderr)
@@ -215,17 +216,6 @@ def _protection(asked: argparse.Namespace) -> Protection:
     if asked.upf is not None:
         layers.append(clothing(asked.upf))
     return layered(layers)
-
-
-def _transmittance(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Wavelengths and transmittance of a sunscreen's file."""
-    table = read_columns(path, (), ("transmittance", "absorbance"))
-    if "transmittance" in table:
-        return table["wavelength_nm"], table["transmittance"]
-    if "absorbance" in table:
-        with np.errstate(over="ignore"):
-            return table["wavelength_nm"], 10.0 ** -table["absorbance"]
-    raise InputError(f"{path} has no column transmittance; a sunscreen needs it, or absorbance.")
 
 
 def _parts(text: str, count: int, what: str, expected: str) -> list[str]:
@@ -257,11 +247,17 @@ def _uv_index(text: str) -> tuple[float, float, float]:
 def _spectrum(text: str) -> tuple[float, np.ndarray, np.ndarray, float]:
     """Hour, wavelengths, irradiance and seconds of HOUR:FILE:SECONDS."""
     hour, path, seconds = _parts(text, 3, "a spectral exposure", "HOUR:FILE:SECONDS")
-    table = read_columns(Path(path), ("irradiance_w_m2_nm",))
+    wavelengths, irradiance = read_irradiance(Path(path))
+    first, last = wavelengths[[0, -1]]
+    if last < FIRST_NM or first > LAST_NM:
+        raise InputError(
+            f"{name_of(Path(path))} has light at {first:g} to {last:g} nm; none of it lies in "
+            f"{FIRST_NM:g} to {LAST_NM:g} nm, which count: are they in another unit?"
+        )
     return (
         number(hour, "hour of a dose"),
-        table["wavelength_nm"],
-        table["irradiance_w_m2_nm"],
+        wavelengths,
+        irradiance,
         number(seconds, "time of exposure"),
     )
 

@@ -1,1 +1,15 @@
-"""Text files that people give: measured spectra, lamps, schedules."""
+"""Text tables that people give: measured spectra, lamps, sunscreens, schedules, fronts.
+
+One set of rules for all of them, numpy and the standard library only: `text` opens and decodes,
+`layout` finds separator, header and rows, `quantities` knows columns by their names and units,
+`table` joins them to columns of numbers, `instruments` knows files whose layout is their maker's,
+and `spectrum` is what most callers want.
+
+A file is read where its text can mean one thing only, and refused in a sentence with the line
+where it can mean two: no reader guesses. Weighed in place of this: `csv.Sniffer` and clevercsv
+choose the likeliest layout, so they read what should be refused (clevercsv is compiled besides);
+pandas reads a row that is too short, takes a column twice under another name, and is no
+dependency for a wheel that Blender carries; colour-science's readers of CxF-like and CSV files
+need colour-science and take separators as told. What is left to the standard library's `csv` is
+quoting.
+"""

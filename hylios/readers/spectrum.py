@@ -1,7 +1,5 @@
-"""Reflectance spectra in CSV files, as `hylios reflectance` prints them."""
+"""Spectra from files, as `hylios reflectance` prints them or instruments write them."""
 
-import csv
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,6 +7,28 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.readers.cgats import cgats_table, is_cgats
+from hylios.readers.quantities import (
+    ABSORBANCE,
+    IRRADIANCE,
+    REFLECTANCE,
+    SHARE,
+    STANDARD_ERROR,
+    TRANSMITTANCE,
+    WAVELENGTH,
+    Quantity,
+)
+from hylios.readers.table import Table, read_table, table_of
+from hylios.readers.text import STANDARD_INPUT, lines_of, name_of, shown
+
+SHORTEST_NM, LONGEST_NM = 100.0, 1e5
+"""Wavelengths that may be meant: micrometres lie below."""
+
+LARGEST_ERROR = 0.5
+"""Standard deviation that numbers from 0 to 1 can have at most."""
+
+OTHER_UNITS = "; other units are read where the column is called wavelength (um) or (angstrom)"
+PERCENT = ", or percent where the column is called as {column} (%)"
 
 
 @dataclass(frozen=True)
@@ -38,94 +58,109 @@ def read_spectra(paths: Sequence[Path]) -> list[NamedSpectrum]:
     InputError
         If a file cannot be read or is no spectrum, or standard input is asked for twice.
     """
-    if list(paths).count(Path("-")) > 1:
+    if list(paths).count(STANDARD_INPUT) > 1:
         raise InputError("standard input is given twice; allowed is once.")
     spectra = [read_spectrum(path) for path in paths]
-    names = [each.name for each in spectra]
+    names = [spectrum.name for spectrum in spectra]
     return [
-        each if names.count(each.name) == 1 else replace(each, name=str(path))
-        for each, path in zip(spectra, paths, strict=True)
+        spectrum if names.count(spectrum.name) == 1 else replace(spectrum, name=name_of(path))
+        for spectrum, path in zip(spectra, paths, strict=True)
     ]
 
 
-def read_spectrum(path: Path, column: str = "total") -> NamedSpectrum:
-    """Read a spectrum from CSV with a header.
+def read_spectrum(path: Path, column: str = REFLECTANCE.name) -> NamedSpectrum:
+    """Read a spectrum from a table of text in whatever layout `hylios.readers` knows.
 
-    Needed are the columns `wavelength_nm`, ascending, and `column`, the reflectance;
-    `standard_error` is read where there is one, other columns and lines that start with # are
-    ignored. Two columns of numbers without a header will do as well. The path `-` is standard
-    input. The spectrum is named as the file without its ending.
+    Needed are columns of wavelengths and of reflectance, `wavelength_nm` and `column` or as
+    instruments call them; `standard_error` is read where there is one. Two columns of numbers
+    without a header will do as well. The path `-` is standard input. The spectrum is named as the
+    file without its ending.
+
+    Parameters
+    ----------
+    column : str
+        That holds the reflectance; of a CGATS file the sample.
 
     Raises
     ------
     InputError
         If the file cannot be read or is no spectrum.
     """
-    name = "standard input" if path == Path("-") else path.stem
-    table = read_columns(path, (column,), ("standard_error",))
-    reflectance, error = table[column], table.get("standard_error")
-    outside = reflectance[(reflectance < 0.0) | (reflectance > 1.0)]
-    if outside.size:
-        raise InputError(f"{path} has a {column} of {outside[0]:g}; allowed is 0 to 1.")
-    if error is not None and np.any(error < 0.0):
-        raise InputError(f"{path} has a standard_error of {error.min():g}; allowed is 0 or more.")
-    return NamedSpectrum(name, table["wavelength_nm"], reflectance, error)
+    named = column == REFLECTANCE.name
+    reflectance = REFLECTANCE if named else Quantity(column, (column.casefold(),), SHARE)
+    lines, name = lines_of(path), name_of(path)
+    if is_cgats(lines):
+        table = cgats_table(lines, name, None if named else column)
+        reflectance = REFLECTANCE
+    else:
+        table = table_of(
+            lines, name, (WAVELENGTH, reflectance), (STANDARD_ERROR,), (WAVELENGTH, reflectance)
+        )
+    table = _by_wavelength(table)
+    percent = PERCENT.format(column=reflectance.name)
+    values = table.require_range(reflectance.name, 0.0, 1.0, percent)
+    error = None
+    if STANDARD_ERROR.name in table.numbers:
+        error = table.require_range(STANDARD_ERROR.name, 0.0, LARGEST_ERROR)
+    stem = name if path == STANDARD_INPUT else shown(path.stem)
+    return NamedSpectrum(stem, table.numbers[WAVELENGTH.name], values, error)
 
 
-def read_columns(
-    path: Path, needed: Sequence[str], welcome: Sequence[str] = ()
-) -> dict[str, np.ndarray]:
-    """The columns `wavelength_nm`, ascending, and some others of a CSV file, as finite numbers.
-
-    Parameters
-    ----------
-    needed, welcome : sequence of str
-        Columns that must be there and that may. A file of two columns of numbers without a header
-        has the first that is needed.
+def read_irradiance(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths (W,) in nm and spectral irradiance (W,) in W/m^2/nm of a lamp's file.
 
     Raises
     ------
     InputError
-        If the file cannot be read, lacks a column or its wavelengths do not ascend.
+        If the file cannot be read or has no such columns, or an irradiance is negative.
     """
-    required = ("wavelength_nm", *needed)
-    table = _columns(path, (*required, *welcome))
-    for column in required:
-        if column not in table:
-            raise InputError(
-                f"{path} has no column {column}; a spectrum needs {','.join(required)}."
-            )
-    if not table["wavelength_nm"].size or not np.all(np.diff(table["wavelength_nm"]) > 0):
-        raise InputError(f"{path} needs one or more wavelengths, in ascending order.")
+    columns = (WAVELENGTH, IRRADIANCE)
+    table = _by_wavelength(read_table(path, columns, as_pair=columns))
+    return table.numbers[WAVELENGTH.name], table.numbers[IRRADIANCE.name]
+
+
+def read_transmittance(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths (W,) in nm and transmittance (W,), 0 to 1, of a film of sunscreen or of cloth.
+
+    An absorbance will do as well, decadic as photometers show it.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or has neither column.
+    """
+    either = (TRANSMITTANCE, ABSORBANCE)
+    table = _by_wavelength(
+        read_table(path, (WAVELENGTH,), either, as_pair=(WAVELENGTH, TRANSMITTANCE))
+    )
+    wavelengths = table.numbers[WAVELENGTH.name]
+    if TRANSMITTANCE.name in table.numbers:
+        percent = PERCENT.format(column=TRANSMITTANCE.name)
+        return wavelengths, table.require_range(TRANSMITTANCE.name, 0.0, 1.0, percent)
+    if ABSORBANCE.name in table.numbers:
+        with np.errstate(over="ignore"):
+            return wavelengths, 10.0 ** -table.numbers[ABSORBANCE.name]
+    raise InputError(
+        f"{table.name} has no column transmittance; a sunscreen needs it, or absorbance."
+    )
+
+
+def read_values(path: Path, largest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths (W,) in nm and values (W,), 0 to some largest, of two columns.
+
+    The second column is called `value`, or there is no header.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, has no such columns, or a value is out of range.
+    """
+    value = Quantity("value")
+    table = _by_wavelength(read_table(path, (WAVELENGTH, value), as_pair=(WAVELENGTH, value)))
+    return table.numbers[WAVELENGTH.name], table.require_range(value.name, 0.0, largest)
+
+
+def _by_wavelength(table: Table) -> Table:
+    table = table.in_order(WAVELENGTH.name)
+    table.require_range(WAVELENGTH.name, SHORTEST_NM, LONGEST_NM, f" nm{OTHER_UNITS}")
     return table
-
-
-def _columns(path: Path, wanted: Sequence[str]) -> dict[str, np.ndarray]:
-    """Those of some columns that a CSV file has, as finite numbers."""
-    try:
-        text = sys.stdin.read() if path == Path("-") else path.read_text(encoding="utf-8-sig")
-        lines = [line for line in text.splitlines() if not line.startswith("#")]
-        rows = [row for row in csv.reader(lines) if row]
-        if not rows:
-            raise ValueError("it is empty")
-        header, *rows = rows if _is_header(rows[0]) else [list(wanted[:2]), *rows]
-        if any(len(row) != len(header) for row in rows):
-            raise ValueError("not every row has as many values as the header")
-        columns = {
-            title.strip(): np.array([row[place] for row in rows], dtype=float)
-            for place, title in enumerate(header)
-            if title.strip() in wanted
-        }
-    except (OSError, ValueError, csv.Error) as error:
-        raise InputError(f"the spectrum in {path} cannot be read: {error}.") from error
-    if not all(np.all(np.isfinite(column)) for column in columns.values()):
-        raise InputError(f"the spectrum in {path} has values that are not finite numbers.")
-    return columns
-
-
-def _is_header(row: Sequence[str]) -> bool:
-    """Whether a file's first row is something else than two numbers."""
-    try:
-        return len([float(each) for each in row]) != 2
-    except ValueError:
-        return True

@@ -1,0 +1,220 @@
+"""Columns of numbers from a text table in whatever layout, or a sentence why not."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from hylios.errors import InputError
+from hylios.readers.instruments import without_instruments_words
+from hylios.readers.layout import NOT_FINITE, NUMBER, SEPARATORS, Layout, NoHeaderError, laid_out
+from hylios.readers.quantities import Quantity, place
+from hylios.readers.text import lines_of, name_of, shown
+
+THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
+"""Numbers with a comma that may be a decimal one or part thousands."""
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Columns of a table that was read, of equal length.
+
+    Attributes
+    ----------
+    name : str
+        Of its file, as sentences call it.
+    numbers : dict of str to (N,) array
+        Finite numbers in this project's units by `Quantity.name`; of what was welcome those that
+        are there.
+    texts : dict of str to list of N str
+    lines : (N,) int array
+        Where each row stands in the file.
+    has_header : bool
+        Whether its columns have names in the file.
+    """
+
+    name: str
+    numbers: dict[str, np.ndarray]
+    texts: dict[str, list[str]]
+    lines: np.ndarray
+    has_header: bool = True
+
+    def require_range(self, column: str, low: float, high: float, hint: str = "") -> np.ndarray:
+        """A column whose values all lie in [low, high].
+
+        Raises
+        ------
+        InputError
+            If one does not.
+        """
+        values = self.numbers[column]
+        outside = np.flatnonzero(~((values >= low) & (values <= high)))
+        if outside.size:
+            line, value = self.lines[outside[0]], values[outside[0]]
+            raise InputError(
+                f"{self.name} has a {column} of {value:g} in line {line}; allowed is {low:g} to "
+                f"{high:g}{hint}."
+            )
+        return values
+
+    def in_order(self, column: str) -> "Table":
+        """The table with a column ascending; one that descends is turned round.
+
+        Raises
+        ------
+        InputError
+            If it does neither, or has no rows.
+        """
+        values = self.numbers[column]
+        if not values.size:
+            raise InputError(f"{self.name} has no rows; needed is one or more {column}.")
+        steps = np.diff(values)
+        descends = bool(steps.size) and bool(steps[0] < 0.0)
+        wrong = np.flatnonzero((steps >= 0.0) if descends else (steps <= 0.0))
+        if wrong.size:
+            before, after = values[wrong[0]], values[wrong[0] + 1]
+            raise InputError(
+                f"{self.name} has a {column} of {after:g} after {before:g} in line "
+                f"{self.lines[wrong[0] + 1]}; allowed are values in ascending or in descending "
+                "order."
+            )
+        if not descends:
+            return self
+        return replace(
+            self,
+            numbers={name: numbers[::-1] for name, numbers in self.numbers.items()},
+            texts={name: texts[::-1] for name, texts in self.texts.items()},
+            lines=self.lines[::-1],
+        )
+
+
+def read_table(
+    path: Path,
+    needed: Sequence[Quantity],
+    welcome: Sequence[Quantity] = (),
+    as_pair: tuple[Quantity, Quantity] | None = None,
+) -> Table:
+    """A table from a file, or with the path `-` from standard input.
+
+    Parameters
+    ----------
+    needed, welcome : sequences of Quantity
+        Columns that must be there and that may; others are passed over.
+    as_pair : two quantities, optional
+        What two columns of numbers without a header are.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read (`text.lines_of`), lacks a column or has it twice, has a row
+        that does not fit, a cell that is empty or no number, or can be read in two ways.
+    """
+    return table_of(lines_of(path), name_of(path), needed, welcome, as_pair)
+
+
+def table_of(
+    lines: Sequence[str],
+    name: str,
+    needed: Sequence[Quantity],
+    welcome: Sequence[Quantity] = (),
+    as_pair: tuple[Quantity, Quantity] | None = None,
+) -> Table:
+    """A table from lines of text; the rest as in `read_table`."""
+    try:
+        lines = without_instruments_words(lines)
+        return _the_only(*_readings(lines, name, needed, welcome, as_pair))
+    except InputError as error:
+        raise InputError(f"{name} cannot be read: {error}.") from error
+
+
+def _readings(lines, name, needed, welcome, as_pair) -> tuple[list[Table], list[InputError]]:
+    """What comes of lines with every separator that occurs in them, and why others failed."""
+    tables, failures = [], []
+    occurring = [mark for mark in SEPARATORS if any(mark in line for line in lines)]
+    for separator in occurring or [","]:
+        try:
+            layout = laid_out(lines, separator, needed, as_pair)
+            tables.append(columns_of(layout, name, (*needed, *welcome)))
+        except InputError as error:
+            failures.append(error)
+    return tables, failures
+
+
+def _the_only(tables: Sequence[Table], failures: Sequence[InputError]) -> Table:
+    """The table of several readings, if they agree.
+
+    Where a separator shows a header but does not fit the rows, another without a header is no
+    reading of the file.
+    """
+    with_header = [error for error in failures if not isinstance(error, NoHeaderError)]
+    if with_header and not any(table.has_header for table in tables):
+        raise with_header[0]
+    if not tables:
+        raise failures[0]
+    first, *others = tables
+    for other in others:
+        alike = first.numbers.keys() == other.numbers.keys() and first.texts == other.texts
+        if not alike or not all(
+            np.array_equal(first.numbers[title], other.numbers[title]) for title in first.numbers
+        ):
+            raise InputError("its cells can be parted in two ways; allowed is one separator")
+    return first
+
+
+def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Table:
+    """The columns of some quantities; InputError says no file's name yet."""
+    numbers, texts = {}, {}
+    cells, factors = {}, {}
+    for quantity in quantities:
+        found = place(layout.titles, quantity)
+        if found is None:
+            continue
+        number, unit = found
+        column = [(row.line, row.cells[number]) for row in layout.rows]
+        if quantity.is_text:
+            texts[quantity.name] = [cell for _, cell in column]
+        else:
+            cells[quantity.name], factors[quantity.name] = column, quantity.units[unit]
+    mark = _decimal_mark([cell for column in cells.values() for cell in column])
+    for title, column in cells.items():
+        times, over = factors[title]
+        values = np.array([_number(title, line, cell, mark) for line, cell in column], dtype=float)
+        numbers[title] = values * times / over
+    lines = np.array([row.line for row in layout.rows], dtype=int)
+    return Table(name, numbers, texts, lines, layout.has_header)
+
+
+def _decimal_mark(cells: Sequence[tuple[int, str]]) -> str:
+    """The one decimal mark of all numbers; a point where there is none.
+
+    A comma is taken as one only where some number shows that it does not part thousands.
+    """
+    with_comma = [(line, cell) for line, cell in cells if "," in cell]
+    if not with_comma:
+        return "."
+    line, cell = with_comma[0]
+    if all(THOUSANDS.fullmatch(cell) for _, cell in with_comma):
+        raise InputError(
+            f"line {line} has the number {cell!r}, whose comma may be a decimal one or part "
+            "thousands; write a point"
+        )
+    pointed = [(other, number) for other, number in cells if "." in number and "," not in number]
+    if pointed:
+        raise InputError(
+            f"line {line} has the number {shown(cell[:60])!r} and line {pointed[0][0]} "
+            f"{shown(pointed[0][1][:60])!r}; allowed is one decimal mark"
+        )
+    return ","
+
+
+def _number(title: str, line: int, cell: str, mark: str) -> float:
+    if NUMBER.fullmatch(cell):
+        value = float(cell.replace(mark, "."))
+        if np.isfinite(value):
+            return value
+    elif not NOT_FINITE.fullmatch(cell):
+        text = f"is {shown(cell[:60])!r}" if cell else "is empty"
+        raise InputError(f"{title} in line {line} {text}; expected a number")
+    raise InputError(f"{title} in line {line} is {cell[:60]}; allowed are finite numbers")

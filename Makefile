@@ -1,5 +1,7 @@
-# make demo | figures | test | test-all | bench | docs | package, each sets up what it needs in VENV first.
-# PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS).
+# make demo | figures | test | test-all | bench | docs | package | constraints: all but the last set
+# up what they need in VENV first.
+# PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS). All
+# packages have the versions of constraints/.
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -42,12 +44,10 @@ simplifications: environment
 agreement: environment
 	@$(BIN)/python -m examples.agreement $(if $(RAYS),--rays $(RAYS))
 
-# The site, into out/docs. What only Sphinx needs is installed once; building fetches nothing.
-docs: environment
-	@$(BIN)/python -c "import furo, myst_nb" 2>/dev/null || \
-	    $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
-	@$(BIN)/python -m sphinx -W --keep-going -q -b html docs out/docs
-	@echo "out/docs/index.html"
+# make demo | figures | test | test-all | bench | docs | package | constraints: all but the last set
+# up what they need in VENV first.
+# PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS). All
+# packages have the versions of constraints/.
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

@@ -1,24 +1,25 @@
 """Skin that tans over the timeline, in Blender.
 
-Imports go one way: panels -> operators -> schedule -> apply -> tables, tan, images, nodes, timeline
--> doses -> hylios. `tan` and `doses` are numpy only; what Apply leaves in the scene needs neither
-this add-on nor scripts.
+- `model`: what to show, as numbers. Knows no Blender and runs without it.
+- `scene`: images, nodes, materials, keys, and to whom they belong. Knows no physics.
+- `apply`: from an object's settings through `model` to `scene`.
+- `props`, `ops`, `ui`: what an artist sets, the buttons, the panels.
+
+Imports go one way: ui -> ops -> apply -> model and scene; props -> model. What Apply leaves in a
+file needs neither this add-on nor scripts. This module imports no bpy, so that `model` can be used
+and tested where there is no Blender.
 """
-
-import bpy
-
-from . import operators, panels, properties
-
-CLASSES = (*properties.CLASSES, *operators.CLASSES, *panels.CLASSES)
 
 
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Object.skin_tan = bpy.props.PointerProperty(type=properties.SkinTanSettings)
+    """Register all classes with Blender, and `skin_tan` on objects."""
+    from . import registration
+
+    registration.register()
 
 
 def unregister():
-    del bpy.types.Object.skin_tan
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    """Take all that `register` added back."""
+    from . import registration
+
+    registration.unregister()

@@ -307,7 +307,7 @@ def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> No
         settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
         apply_tan(tanned, bpy.context.scene)
         if number:
-            material = bpy.data.materials[f"Skin Tan {tanned.name}"]
+            material = tanned.skin_tan.material
             bpy.data.objects.remove(tanned)
             obj.data.materials[number] = material
 

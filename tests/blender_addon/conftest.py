@@ -1,6 +1,5 @@
 """Every test here starts from an empty scene with the add-on registered."""
 
-import bpy
 import pytest
 from synthetic import smooth_table
 
@@ -10,6 +9,8 @@ from lut_builder.exr import write_table
 
 @pytest.fixture(autouse=True)
 def empty_scene():
+    import bpy  # the tests of the model run without it
+
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     blender_addon.register()
     yield

@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
-from synthetic import tan_object
+from scenes import apply, pixels, tan_object
 
-from blender_addon import tables
+from blender_addon.model import catalogue, settings
 from hylios.table import read_table
 
 MATERIAL = "Skin Tan Body"
@@ -17,10 +17,6 @@ MATERIAL = "Skin Tan Body"
 @pytest.fixture
 def body(table_path):
     return tan_object(table_path, [0.0, 0.5, 1.0])
-
-
-def apply() -> set:
-    return bpy.ops.skin_tan.apply()
 
 
 def day_curve(obj):
@@ -43,14 +39,14 @@ def refused(sentence: str) -> None:
 
 
 def test_shipped_tables_can_be_loaded():
-    for shipped in tables.SHIPPED:
+    for shipped in catalogue.SHIPPED:
         table = read_table(shipped.path)
         assert table.provenance["specimen"] == shipped.name
-        assert tables.minimal_doses(table.provenance).mmd > 0
+        assert settings.minimal_doses(table.provenance).mmd > 0
 
 
 def test_shipped_skins_can_be_chosen_and_applied(body):
-    for shipped in tables.SHIPPED:
+    for shipped in catalogue.SHIPPED:
         body.skin_tan.skin = shipped.name
         assert apply() == {"FINISHED"}
 
@@ -156,10 +152,7 @@ def test_exposures_after_the_last_day_are_reported(body, capfd):
 def last_row():
     """Apply; the colour of the last day where all of the dose arrived."""
     apply()
-    image = bpy.data.images["Skin Tan Colour Body"]
-    pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    return pixels.reshape(image.size[1], image.size[0], 4)[-1, -1, :3]
+    return pixels(bpy.data.images["Skin Tan Colour Body"])[-1, -1, :3]
 
 
 def test_own_minimal_doses_replace_the_table_s(body):
@@ -247,7 +240,7 @@ def test_days_and_frames_out_of_order(body):
 
 def test_dose_that_is_no_number(body):
     body.skin_tan.exposures[0].dose = float("nan")
-    refused("a dose is negative, not finite or too large")
+    refused("dose of an exposure is nan SED; allowed is 0 to")
 
 
 def test_tables_that_cannot_be_used(body, table_path, tmp_path):
@@ -276,3 +269,65 @@ def test_a_table_beside_the_blend_file(body, table_path, tmp_path):
     body = bpy.data.objects["Body"]
     body.skin_tan.table_path = "//skin.exr"
     assert apply() == {"FINISHED"}
+
+
+@pytest.mark.parametrize(("from_hour", "late"), [(0.0, False), (12.0, False), (13.0, True)])
+def test_sun_is_late_by_its_hours(table_path, capfd, from_hour, late):
+    """Day 30.9 stands for day 30; what begins by the last day, noon of it, has an effect."""
+    obj = tan_object(table_path)
+    exposure, obj.skin_tan.last_day = obj.skin_tan.exposures[0], 30.5
+    exposure.unit, exposure.day = "SUN", 30.9
+    exposure.from_hour, exposure.to_hour = from_hour, 16.0
+    assert apply() == {"FINISHED"}
+    assert ("after day 30.5 have no effect: 1." in capfd.readouterr().out) == late
+    assert (np.ptp(colours()[-1, :, 0]) > 0.0) != late
+
+
+def test_apply_takes_every_unit(table_path):
+    """The picture of each differs from that under sunscreen, and from the others."""
+    exposure = tan_object(table_path).skin_tan.exposures[0]
+    exposure.to_hour = 12.5
+    bare = {}
+    for unit in ("SED", "MMD", "UV_INDEX", "SUN"):
+        exposure.unit = unit
+        exposure.sunscreen = False
+        assert apply() == {"FINISHED"}
+        bare[unit] = colours()
+        exposure.sunscreen, exposure.spf = True, 50.0
+        assert apply() == {"FINISHED"}
+        assert np.abs(colours() - bare[unit]).max() > 0.02
+    assert len({picture.tobytes() for picture in bare.values()}) == 4
+
+
+def colours() -> np.ndarray:
+    return pixels(bpy.data.images["Skin Tan Colour Body"])
+
+
+@pytest.mark.parametrize("scale", [float("nan"), float("inf")])
+def test_a_unit_scale_that_is_no_length(body, scale):
+    bpy.context.scene.unit_settings.scale_length = scale
+    if bpy.context.scene.unit_settings.scale_length != 1e9:  # Blender may cut it
+        refused("unit scale of the scene is .*; allowed is 1e-09 to 1e\\+09")
+
+
+def test_minimal_doses_that_are_no_numbers(body):
+    body.skin_tan.own_minimal_doses, body.skin_tan.mmd = True, float("nan")
+    refused("minimal tanning dose is nan SED; allowed is 0.001 to 1000 SED")
+
+
+def test_without_a_window(body):
+    with bpy.context.temp_override(window=None):
+        assert not hasattr(bpy.context, "object")
+        assert bpy.ops.skin_tan.add_exposure() == {"FINISHED"}
+        assert bpy.ops.skin_tan.remove_exposure() == {"FINISHED"}
+        assert apply() == {"FINISHED"}
+    assert "tan_day" in body
+
+
+@pytest.mark.parametrize("name", ["object", "active_object"])
+def test_the_object_of_an_override_gets_the_tan(body, table_path, name):
+    other = tan_object(table_path)
+    bpy.context.view_layer.objects.active = body
+    with bpy.context.temp_override(**{name: other}):
+        assert apply() == {"FINISHED"}
+    assert "tan_day" in other and "tan_day" not in body

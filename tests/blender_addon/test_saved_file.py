@@ -5,7 +5,7 @@ import sys
 
 import bpy
 import numpy as np
-from synthetic import add_camera, add_mask, read_pixels, render, tan_object, white_world
+from scenes import add_camera, add_mask, read_pixels, render, tan_object, white_world
 
 FRAMES = (1, 90)
 SCRIPT = """

@@ -3,9 +3,10 @@
 import bpy
 import numpy as np
 import pytest
-from synthetic import UNTANNED_COLOUR, add_camera, render, tan_object, white_world
+from scenes import add_camera, of_role, render, tan_object, white_world
+from synthetic import UNTANNED_COLOUR
 
-from blender_addon.tan import tan
+from blender_addon.model.tan import tan
 from hylios.sun.doses import joined, of_sed
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
 
@@ -121,7 +122,7 @@ def test_profile_width_does_not_depend_on_the_unit_of_the_scene(table_path):
         units = bpy.context.scene.unit_settings
         units.system, units.scale_length = system, length
         apply_timed(obj)
-        value = bpy.data.node_groups["Skin Tan Body"].nodes["Value.001"]
+        value = of_role(obj, "radius")
         assert value.outputs[0].default_value == pytest.approx(0.013069 * scale, rel=1e-4)
 
 

@@ -1,11 +1,14 @@
 """The panel drawn on a layout that raises where Blender would only print."""
 
+from dataclasses import replace
+
 import bpy
 import pytest
-from synthetic import tan_object
+from scenes import tan_object
 
-from blender_addon import doses, panels, tables
-from hylios.sun.action_spectra import Absorptance
+from blender_addon.model import catalogue, doses
+from blender_addon.ui import exposures, panel
+from lut_builder.exr import write_table
 
 ICONS = {
     item.identifier
@@ -52,7 +55,7 @@ class Layout:
         assert hasattr(bpy.types, kind)
         assert name in data.bl_rna.properties and active_name in active_data.bl_rna.properties
         for item in getattr(data, name):
-            panels.SKIN_TAN_UL_exposures.draw_item(
+            exposures.SKIN_TAN_UL_exposures.draw_item(
                 None, bpy.context, Layout(self.labels), data, item, 0, active_data, active_name
             )
 
@@ -64,7 +67,7 @@ class Panel:
 
 def drawn() -> list[str]:
     labels: list[str] = []
-    panels.VIEW3D_PT_skin_tan.draw(Panel(labels), bpy.context)
+    panel.VIEW3D_PT_skin_tan.draw(Panel(labels), bpy.context)
     return labels
 
 
@@ -96,17 +99,24 @@ def test_with_every_setting(table_path):
     [
         ("MMD", "2 MMD", "9.8 SED: 1.4 h of strong summer sun"),
         ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong summer sun"),
-        ("SUN", "Sun 11-15 h", "No dose: the table does not say what its skin abs"),
+        ("SUN", "Sun 11-15 h", "29.3 SED: 4.1 h of strong summer sun"),
     ],
 )
 def test_every_unit_says_what_reaches_the_skin(table_path, unit, line, label):
-    """This table does not say what its skin absorbs, as the sun by date needs it."""
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].unit = unit
     labels = drawn()
     assert line in labels and label in labels
     obj.skin_tan.exposures[0].sunscreen = True
-    assert label not in drawn() or unit == "SUN"
+    assert label not in drawn()
+
+
+def test_the_sun_needs_a_table_that_says_what_skin_absorbs(tmp_path, table):
+    without = {name: what for name, what in table.provenance.items() if name != "absorptance"}
+    path = tmp_path / "without.exr"
+    write_table(path, replace(table, provenance=without))
+    tan_object(path).skin_tan.exposures[0].unit = "SUN"
+    assert "No dose: the table does not say what its skin abs" in drawn()
 
 
 def test_a_multiple_is_of_the_dose_that_is_set_by_hand(table_path):
@@ -116,10 +126,9 @@ def test_a_multiple_is_of_the_dose_that_is_set_by_hand(table_path):
     assert "14.4 SED: 2.0 h of strong summer sun" in drawn()
 
 
-def test_the_sun_says_that_its_dose_is_provisional(table_path, monkeypatch):
+def test_the_sun_says_that_its_dose_is_provisional(table_path):
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].unit = "SUN"
-    monkeypatch.setattr(doses, "absorptance", lambda _: Absorptance([280.0, 400.0], [0.9, 0.9]))
     assert any("SED (provisional)" in label for label in drawn())
 
 
@@ -132,14 +141,73 @@ def test_a_new_object_says_what_to_do():
     assert "No mask: the whole body is bare" in labels
 
 
-def test_a_file_that_is_no_table(table_path, tmp_path):
+def test_a_file_that_is_no_table_is_read_once(table_path, tmp_path, monkeypatch):
+    """However often the panel is drawn, until the file changes."""
     obj = tan_object(table_path)
-    obj.skin_tan.table_path = str(tmp_path / "absent.exr")
+    path = tmp_path / "bad.exr"
+    obj.skin_tan.table_path = str(path)
     assert "This is not a usable skin table" in drawn()
+    reads = counted(monkeypatch, catalogue, "read_table")
+    path.write_text("no table")
+    for _ in range(3):
+        assert "This is not a usable skin table" in drawn()
+    assert len(reads) == 1
+    path.write_bytes(table_path.read_bytes())
+    for _ in range(3):
+        assert "Tans from 4.9 SED of sun," in drawn()
+    assert len(reads) == 2
+
+
+def test_a_dose_of_sun_is_computed_once(table_path, monkeypatch):
+    """Until a value changes that it follows from."""
+    exposure = tan_object(table_path).skin_tan.exposures[0]
+    exposure.unit, exposure.latitude = "SUN", 41.5
+    computed = counted(monkeypatch, doses, "of_exposure")
+    before = [drawn() for _ in range(3)]
+    assert len(computed) == 1 and before[0] == before[1] == before[2]
+    exposure.to_hour = 12.0
+    assert drawn() != before[0]
+    assert len(computed) == 2
+
+
+def counted(monkeypatch, module, name: str) -> list:
+    """A list that grows with every call of a function."""
+    calls, function = [], getattr(module, name)
+
+    def wrapper(*arguments):
+        calls.append(arguments)
+        return function(*arguments)
+
+    monkeypatch.setattr(module, name, wrapper)
+    return calls
+
+
+def test_a_shipped_table_that_is_damaged_is_told(tmp_path, monkeypatch):
+    path = tmp_path / "III.exr"
+    path.write_bytes((catalogue.FOLDER / "III.exr").read_bytes()[:3000])
+    monkeypatch.setattr(catalogue, "SHIPPED", catalogue.shipped_tables(tmp_path))
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.skin_tan.skin = "III"
+    assert "This skin's table is damaged:" in drawn()
+
+
+@pytest.mark.parametrize("unit", ["SED", "MMD", "UV_INDEX", "SUN"])
+@pytest.mark.parametrize("value", [float("nan"), 1e308, -1.0])
+def test_values_set_by_scripts_do_not_stop_the_panel(table_path, unit, value):
+    """Some past the limits of the properties, some that the limits change."""
+    exposure = tan_object(table_path).skin_tan.exposures[0]
+    exposure.unit, exposure.sunscreen = unit, True
+    for name in ("day", "dose", "multiple", "uv_index", "duration", "latitude", "from_hour"):
+        setattr(exposure, name, value)
+    for name in ("to_hour", "spf", "sunscreen_amount"):
+        setattr(exposure, name, value)
+    labels = drawn()
+    assert any("SED: " in label or label.startswith("No dose: ") for label in labels)
+    assert any(label.startswith("No dose: ") for label in labels) or value == value
 
 
 def test_every_shipped_skin_has_its_estimate():
     bpy.ops.mesh.primitive_cube_add()
-    for shipped in tables.SHIPPED:
+    for shipped in catalogue.SHIPPED:
         bpy.context.object.skin_tan.skin = shipped.name
         assert any("(estimates)" in label for label in drawn())

@@ -3,20 +3,23 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from datetime import date
+from typing import Any
 
 import numpy as np
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, require_range, require_whole
 from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
 from hylios.sun.protection import BARE, sunscreen
+from hylios.tanning import LARGEST_DOSE
 
-LAST_DAY_LIMIT = 366.0
+from .settings import LAST_DAY_LIMIT, Exposure
+
 ANY_YEAR = 2025  # the sun stands nearly alike in all
 
 
-def received(exposures: Iterable, mmd: float, provenance: Mapping) -> Doses:
-    """Doses on bare skin of all exposures, `SkinTanExposure` or the like.
+def received(exposures: Iterable[Exposure], mmd: float, provenance: Mapping[str, Any]) -> Doses:
+    """Doses on bare skin of all exposures.
 
     Parameters
     ----------
@@ -31,15 +34,21 @@ def received(exposures: Iterable, mmd: float, provenance: Mapping) -> Doses:
         If an exposure has a value out of range or a day that no month has, or is to the sun and
         the table does not know what the skin absorbs.
     """
-    return joined([of_exposure(each, mmd, provenance) for each in exposures])
+    return joined([of_exposure(exposure, mmd, provenance) for exposure in exposures])
 
 
-def of_exposure(exposure, mmd: float, provenance: Mapping) -> Doses:
+def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -> Doses:
     """Doses of one exposure; parameters and errors as in `received`."""
-    over = sunscreen(exposure.spf, exposure.sunscreen_amount) if exposure.sunscreen else BARE
+    over = BARE
+    if exposure.sunscreen:
+        over = sunscreen(exposure.spf, exposure.sunscreen_amount)
     hour = begin(exposure)
+    if exposure.unit == "SED":
+        dose = require_range("dose of an exposure", exposure.dose, 0.0, LARGEST_DOSE, "SED")
+        return of_sed(hour, dose, over)
     if exposure.unit == "MMD":
-        return of_sed(hour, exposure.multiple * mmd, over)
+        multiple = require_range("times the tanning dose", exposure.multiple, 0.0, 1e6)
+        return of_sed(hour, multiple * mmd, over)
     if exposure.unit == "UV_INDEX":
         return of_uv_index(hour, exposure.uv_index, exposure.duration, over)
     if exposure.unit == "SUN":
@@ -52,24 +61,27 @@ def of_exposure(exposure, mmd: float, provenance: Mapping) -> Doses:
             protection=over,
         )
         return replace(from_midnight, hours=from_midnight.hours + 24.0 * np.floor(exposure.day))
-    return of_sed(hour, exposure.dose, over)
+    raise InputError(
+        f"unit of an exposure is {exposure.unit!r}; allowed are SED, MMD, UV_INDEX and SUN."
+    )
 
 
-def begin(exposure) -> int:
+def begin(exposure: Exposure) -> int:
     """The hour of the tanning model in which an exposure begins.
 
     Raises
     ------
     InputError
-        If its day is out of range.
+        If its day or its hour is out of range.
     """
     require_range("day of an exposure", exposure.day, 0.0, LAST_DAY_LIMIT)
     if exposure.unit == "SUN":
+        require_range("hour of sun", exposure.from_hour, 0.0, 24.0)
         return 24 * int(exposure.day) + int(exposure.from_hour)
     return int(np.floor(24.0 * exposure.day + 0.5))
 
 
-def absorptance(provenance: Mapping) -> Absorptance:
+def absorptance(provenance: Mapping[str, Any]) -> Absorptance:
     """What the skin of a table absorbs in the ultraviolet.
 
     Raises
@@ -80,7 +92,7 @@ def absorptance(provenance: Mapping) -> Absorptance:
     try:
         told = provenance["absorptance"]
         return Absorptance(np.array(told["wavelengths_nm"]), np.array(told["values"]))
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, OverflowError, TypeError, ValueError) as error:
         raise InputError(
             "the table does not say what its skin absorbs in the ultraviolet, as sun by date needs "
             "it; give that exposure in SED, or build the table anew."
@@ -88,8 +100,11 @@ def absorptance(provenance: Mapping) -> Absorptance:
 
 
 def _date(month: int, day: int) -> date:
+    require_whole("month", month, 1, 12)
     try:
-        return date(ANY_YEAR, month, day)
+        return date(ANY_YEAR, month, require_whole("day of the month", day, 1, 31))
+    except InputError:
+        raise
     except ValueError as error:
         raise InputError(
             f"day of the month is {day}, which month {month} lacks; allowed is a date."

@@ -1,15 +1,16 @@
-"""A tan over time and share of the dose, as arrays for a shader to sample. numpy only."""
+"""A tan over time and share of the dose, as arrays for a shader to sample."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError
 from hylios.sun.doses import Doses
 from hylios.table import SkinTable, melanin_dynamics
 from hylios.tanning import Exposures, states_at
 
-from .doses import LAST_DAY_LIMIT
+from . import catalogue, doses
+from .settings import TanSettings, check_days
 
 # The response jumps where the dose passes the MMD and then climbs in steps; with this many knots
 # a jump is spread over 0.2 % of the share, and 99 % of all places are within 0.6 % of the melanin.
@@ -41,9 +42,29 @@ class Tan:
     last_day: float
 
 
+def tan_of(settings: TanSettings) -> Tan:
+    """What an object's settings lead to.
+
+    Raises
+    ------
+    InputError
+        If a setting or the table cannot be used.
+    """
+    table = catalogue.table(settings.table)
+    minimal = settings.minimal_doses(table.provenance)
+    return tan(
+        table,
+        doses.received(settings.exposures, minimal.mmd, table.provenance),
+        mmd=minimal.mmd,
+        med=minimal.med,
+        first_day=settings.first_day,
+        last_day=settings.last_day,
+    )
+
+
 def tan(
     table: SkinTable,
-    doses: Doses,
+    received: Doses,
     *,
     mmd: float,
     med: float,
@@ -54,7 +75,7 @@ def tan(
 
     Parameters
     ----------
-    doses : Doses
+    received : Doses
         On bare skin.
     mmd, med : float
         Minimal melanogenesis and erythema dose in SED.
@@ -73,7 +94,7 @@ def tan(
     rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
     share = np.linspace(0.0, 1.0, COLUMNS)[:, None]
     states = states_at(
-        Exposures(doses.hours, share * doses.melanogenesis, share * doses.thickening),
+        Exposures(received.hours, share * received.melanogenesis, share * received.thickening),
         melanin_dynamics(table.provenance),
         times=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
@@ -101,15 +122,4 @@ def _check_planes(table: SkinTable) -> None:
         raise InputError(
             f"the table has no plane {COLOUR}, which the skin's material needs; it has "
             f"{', '.join(table.planes)}."
-        )
-
-
-def check_days(first_day: float, last_day: float) -> None:
-    """Raise InputError unless the days are in range and the last comes after the first."""
-    require_range("first day", first_day, 0.0, LAST_DAY_LIMIT)
-    require_range("last day", last_day, 0.0, LAST_DAY_LIMIT)
-    if not last_day > first_day:
-        raise InputError(
-            f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
-            f"to {LAST_DAY_LIMIT:g}."
         )

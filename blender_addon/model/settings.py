@@ -1,0 +1,144 @@
+"""What an artist has set on one object, as plain values."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from hylios.errors import InputError, require_range
+
+LAST_DAY_LIMIT = 366.0
+LARGEST_MINIMAL_DOSE = 1000.0
+"""In SED; a hundred times that of the darkest skin."""
+
+
+@dataclass(frozen=True)
+class Exposure:
+    """One time in the sun, as `SkinTanExposure` holds it.
+
+    Attributes
+    ----------
+    day : float
+        When it begins, in days from the start of the tan; of unit SUN, only the whole day counts.
+    unit : str
+        SED, MMD, UV_INDEX or SUN: which of the following count.
+    dose : float
+        Of unit SED, in SED.
+    multiple : float
+        Of unit MMD, in minimal melanogenesis doses.
+    uv_index, duration : float
+        Of unit UV_INDEX; the duration in hours.
+    latitude, month, day_of_month, from_hour, to_hour
+        Of unit SUN: degrees north, a date and two hours of local solar time.
+    sunscreen : bool
+        Whether `spf` and `sunscreen_amount`, mg/cm^2, count.
+    """
+
+    day: float
+    unit: str
+    dose: float
+    multiple: float
+    uv_index: float
+    duration: float
+    latitude: float
+    month: int
+    day_of_month: int
+    from_hour: float
+    to_hour: float
+    sunscreen: bool
+    spf: float
+    sunscreen_amount: float
+
+    @classmethod
+    def of(cls, source: Any) -> "Exposure":
+        """The values of anything with attributes of these names."""
+        return cls(**{field.name: getattr(source, field.name) for field in fields(cls)})
+
+
+@dataclass(frozen=True)
+class MinimalDoses:
+    """Doses in SED from which skin tans (`mmd`) and burns (`med`).
+
+    Raises
+    ------
+    InputError
+        If one is not above 0, or too large.
+    """
+
+    mmd: float
+    med: float
+
+    def __post_init__(self):
+        for name, value in (("minimal tanning dose", self.mmd), ("minimal burn dose", self.med)):
+            require_range(name, value, 1e-3, LARGEST_MINIMAL_DOSE, "SED")
+
+
+@dataclass(frozen=True)
+class TanSettings:
+    """All that decides how an object tans.
+
+    Attributes
+    ----------
+    table : Path
+        Of the skin's table.
+    own_doses : MinimalDoses or None
+        Those set by hand; without them the table's count.
+    exposures : tuple of Exposure
+    first_day, last_day : float
+        Days of the first and the last frame.
+
+    Raises
+    ------
+    InputError
+        If the days are out of range or order.
+    """
+
+    table: Path
+    own_doses: MinimalDoses | None
+    exposures: tuple[Exposure, ...]
+    first_day: float
+    last_day: float
+
+    def __post_init__(self):
+        check_days(self.first_day, self.last_day)
+
+    def minimal_doses(self, provenance: Mapping[str, Any]) -> MinimalDoses:
+        """Minimal doses set by hand, else those of the table.
+
+        Raises
+        ------
+        InputError
+            If the table's are to be used and are missing or out of range.
+        """
+        return self.own_doses or minimal_doses(provenance)
+
+
+def check_days(first_day: float, last_day: float) -> None:
+    """Raise InputError unless the days are in range and the last comes after the first."""
+    require_range("first day", first_day, 0.0, LAST_DAY_LIMIT)
+    require_range("last day", last_day, 0.0, LAST_DAY_LIMIT)
+    if not last_day > first_day:
+        raise InputError(
+            f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
+            f"to {LAST_DAY_LIMIT:g}."
+        )
+
+
+def minimal_doses(provenance: Mapping[str, Any]) -> MinimalDoses:
+    """Minimal doses of a table's skin.
+
+    Raises
+    ------
+    InputError
+        If they are missing, no numbers or out of range.
+    """
+    doses = [provenance.get(name) for name in ("mmd_sed", "med_sed")]
+    for dose in doses:
+        if isinstance(dose, bool) or not isinstance(dose, int | float):
+            raise InputError(f"the table's minimal dose is {str(dose)[:40]!r}; expected a number.")
+        if not 0 < dose < LARGEST_MINIMAL_DOSE:  # integers may be larger than any float
+            raise InputError(
+                "the table's minimal dose is out of range; "
+                f"allowed is 0.001 to {LARGEST_MINIMAL_DOSE:g} SED."
+            )
+    return MinimalDoses(*map(float, doses))

@@ -1,0 +1,83 @@
+"""What a panel says of a skin and of an exposure, in short lines.
+
+Panels are drawn many times a second: what takes longer than a look at a file's date is remembered.
+"""
+
+import functools
+from pathlib import Path
+
+from hylios.errors import InputError
+
+from . import catalogue, doses
+from .settings import Exposure, MinimalDoses, minimal_doses
+
+SED_PER_HOUR_OF_SUMMER_SUN = 7.2
+"""Erythemal dose of an hour at UV index 8: 8 x 25 mW/m^2 for an hour is 720 J/m^2."""
+
+LINE = 40
+"""Characters that fit into a panel of usual width."""
+
+
+def of_table(path: Path) -> tuple[str, ...]:
+    """From what dose the skin of a table tans and burns.
+
+    Raises
+    ------
+    InputError
+        If it is no usable table.
+    """
+    minimal = minimal_doses(catalogue.provenance(path))
+    return (
+        f"Tans from {minimal.mmd:.1f} SED of sun,",
+        f"burns from {minimal.med:.1f} SED (estimates)",
+    )
+
+
+def of_exposure(exposure: Exposure) -> str:
+    """An exposure in a few characters."""
+    return {
+        "SED": f"{exposure.dose:g} SED",
+        "MMD": f"{exposure.multiple:g} MMD",
+        "UV_INDEX": f"UV {exposure.uv_index:g}, {exposure.duration:g} h",
+        "SUN": f"Sun {exposure.from_hour:g}-{exposure.to_hour:g} h",
+    }[exposure.unit]
+
+
+def of_dose(exposure: Exposure, path: Path, own_doses: MinimalDoses | None) -> tuple[str, ...]:
+    """What dose reaches skin in an exposure.
+
+    Parameters
+    ----------
+    path : Path
+        Of the skin's table.
+    own_doses : MinimalDoses or None
+        Those set by hand, if any.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range or the table cannot be used.
+    """
+    result = _of_dose(exposure, path, catalogue.stamp(path), own_doses)
+    if isinstance(result, str):
+        raise InputError(result)
+    return result
+
+
+@functools.lru_cache(maxsize=256)
+def _of_dose(
+    exposure: Exposure, path: Path, stamp: tuple[int, int], own_doses: MinimalDoses | None
+) -> tuple[str, ...] | str:
+    """The lines, or why there are none: an exception would not be remembered."""
+    try:
+        provenance = catalogue.provenance(path)
+        minimal = own_doses or minimal_doses(provenance)
+        received = doses.of_exposure(exposure, minimal.mmd, provenance)
+    except InputError as error:
+        return str(error)
+    meter, tanning = received.erythemal.sum(), received.melanogenesis.sum()
+    hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
+    lines = [f"{meter:.3g} SED: {hours:.1f} h of strong summer sun"]
+    if exposure.unit == "SUN":
+        lines.append(f"tans like {tanning:.3g} SED (provisional)")
+    return tuple(lines)

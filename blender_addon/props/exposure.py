@@ -1,0 +1,125 @@
+"""One time in the sun."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from ..model.settings import LAST_DAY_LIMIT
+
+UNITS = (
+    ("SED", "Dose", "As a dose in standard erythema doses (SED)"),
+    ("MMD", "Tanning Doses", "As a multiple of the smallest dose that tans this skin (MMD)"),
+    ("UV_INDEX", "UV Index", "As hours at a UV index"),
+    ("SUN", "Sun", "As hours of a day at a place, under a clear sky"),
+)
+
+
+class SkinTanExposure(bpy.types.PropertyGroup):
+    day: FloatProperty(
+        name="Day",
+        description="When the skin was in the sun, in days from the start of the tan",
+        min=0.0,
+        max=LAST_DAY_LIMIT,
+        step=100,
+        precision=2,
+    )
+    unit: EnumProperty(
+        name="Given as",
+        description="How the amount of sun is given",
+        items=UNITS,
+        default="SED",
+    )
+    dose: FloatProperty(
+        name="Dose (SED)",
+        description="How much sun, in standard erythema doses. Bare skin in strong summer sun "
+        "(UV index 8) gets about 7 SED an hour",
+        default=10.0,
+        min=0.0,
+        soft_max=60.0,
+        max=1000.0,
+        step=100,
+        precision=1,
+    )
+    multiple: FloatProperty(
+        name="Times the Tanning Dose",
+        description="How much sun, as a multiple of the smallest dose that tans this skin (MMD)",
+        default=2.0,
+        min=0.0,
+        soft_max=10.0,
+        max=100.0,
+        step=10,
+        precision=1,
+    )
+    uv_index: FloatProperty(
+        name="UV Index",
+        description="As weather reports give it: 3 is moderate, 8 very high, 11 extreme",
+        default=8.0,
+        min=0.0,
+        soft_max=12.0,
+        max=50.0,
+        step=100,
+        precision=1,
+    )
+    duration: FloatProperty(
+        name="Hours",
+        description="How long the skin was in the sun",
+        default=2.0,
+        min=0.0,
+        soft_max=12.0,
+        max=48.0,
+        step=50,
+        precision=1,
+    )
+    latitude: FloatProperty(
+        name="Latitude",
+        description="Of the place in degrees, north positive",
+        default=40.0,
+        min=-90.0,
+        max=90.0,
+        step=100,
+        precision=1,
+    )
+    month: IntProperty(name="Month", description="Of the year", default=7, min=1, max=12)
+    day_of_month: IntProperty(name="Day", description="Of the month", default=15, min=1, max=31)
+    from_hour: FloatProperty(
+        name="From",
+        description="Hour of the day by the sun, which stands highest at 12",
+        default=11.0,
+        min=0.0,
+        max=24.0,
+        step=50,
+        precision=1,
+    )
+    to_hour: FloatProperty(
+        name="To",
+        description="Hour of the day by the sun, which stands highest at 12",
+        default=15.0,
+        min=0.0,
+        max=24.0,
+        step=50,
+        precision=1,
+    )
+    sunscreen: BoolProperty(
+        name="Sunscreen",
+        description="The skin was under sunscreen. Where only a part of it was, paint the mask",
+    )
+    spf: FloatProperty(
+        name="SPF",
+        description="Sun protection factor on the bottle, measured at 2 mg/cm²",
+        default=30.0,
+        min=1.0,
+        soft_max=50.0,
+        max=1000.0,
+        step=100,
+        precision=0,
+    )
+    sunscreen_amount: FloatProperty(
+        name="mg/cm²",
+        description="How much was put on. The factor on the bottle is for 2; people use 0.5 to 1, "
+        "which protects far less",
+        default=2.0,
+        min=0.0,
+        soft_max=2.0,
+        max=20.0,
+        step=10,
+        precision=1,
+    )

@@ -1,0 +1,143 @@
+"""All that an artist sets on one object."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from hylios.errors import InputError
+
+from ..model.catalogue import FILE, shipped_path
+from ..model.settings import LAST_DAY_LIMIT, Exposure, MinimalDoses, TanSettings
+from .exposure import SkinTanExposure
+from .skins import SKIN_ITEMS, USUAL_SKIN
+
+
+class SkinTanSettings(bpy.types.PropertyGroup):
+    skin: EnumProperty(
+        name="Skin",
+        description="Which skin it is that tans",
+        items=SKIN_ITEMS,
+        default=USUAL_SKIN,
+    )
+    table_path: StringProperty(
+        name="Table",
+        description="Skin table to use, an EXR file",
+        subtype="FILE_PATH",
+        options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+    )
+    own_minimal_doses: BoolProperty(
+        name="Set Sensitivity by Hand",
+        description="Set how much sun this person needs to tan and to burn, in place of the "
+        "table's estimate",
+    )
+    mmd: FloatProperty(
+        name="Tans from SED",
+        description="Smallest dose in SED that tans this skin (MMD)",
+        default=7.0,
+        min=0.1,
+        soft_max=60.0,
+        step=10,
+        precision=1,
+    )
+    med: FloatProperty(
+        name="Burns from SED",
+        description="Smallest dose in SED that reddens this skin (MED)",
+        default=4.0,
+        min=0.1,
+        soft_max=60.0,
+        step=10,
+        precision=1,
+    )
+    group: PointerProperty(
+        name="Node Group",
+        description="The node group that Apply made for this object",
+        type=bpy.types.NodeTree,
+        options={"HIDDEN"},
+    )
+    material: PointerProperty(
+        name="Material",
+        description="The material that Apply made for this object",
+        type=bpy.types.Material,
+        options={"HIDDEN"},
+    )
+    exposures: CollectionProperty(type=SkinTanExposure)
+    exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})
+    mask_attribute: StringProperty(
+        name="Sun Mask",
+        description="Attribute of the mesh with the share of the dose that reaches each point: "
+        "0 is covered, 1 is bare. Without one the whole body is bare",
+    )
+    first_day: FloatProperty(
+        name="First Day",
+        description="Day of the tan at the first frame",
+        min=0.0,
+        max=LAST_DAY_LIMIT,
+        step=100,
+        precision=1,
+    )
+    last_day: FloatProperty(
+        name="Last Day",
+        description="Day of the tan at the last frame",
+        default=30.0,
+        min=0.0,
+        max=LAST_DAY_LIMIT,
+        step=100,
+        precision=1,
+    )
+    first_frame: IntProperty(
+        name="First Frame", description="Frame that shows the first day", default=1
+    )
+    last_frame: IntProperty(
+        name="Last Frame", description="Frame that shows the last day", default=250
+    )
+
+    def values(self) -> TanSettings:
+        """The settings as plain values.
+
+        Raises
+        ------
+        InputError
+            If no table is set, or a value is out of range.
+        """
+        return TanSettings(
+            table=self.table_file(),
+            own_doses=self.own_doses(),
+            exposures=tuple(map(Exposure.of, self.exposures)),
+            first_day=self.first_day,
+            last_day=self.last_day,
+        )
+
+    def table_file(self) -> Path:
+        """Path of the skin's table.
+
+        Raises
+        ------
+        InputError
+            If none is set, or if this add-on lacks the skin.
+        """
+        if self.skin != FILE:
+            return shipped_path(self.skin)
+        if not self.table_path:
+            raise InputError("No table is chosen: set the path of a skin table (an EXR file).")
+        return Path(bpy.path.abspath(self.table_path))
+
+    def own_doses(self) -> MinimalDoses | None:
+        """Minimal doses where they are set by hand.
+
+        Raises
+        ------
+        InputError
+            If one is out of range.
+        """
+        if not self.own_minimal_doses:
+            return None
+        return MinimalDoses(mmd=self.mmd, med=self.med)

@@ -1,0 +1,54 @@
+"""The skins on offer, as items of an enumeration."""
+
+import zlib
+from collections.abc import Iterable, Sequence
+
+from ..model.catalogue import FILE, SHIPPED, TYPES, ShippedTable
+
+SKIN_LABELS = {
+    "I": "Type I, very light",
+    "II": "Type II, light",
+    "III": "Type III, intermediate",
+    "IV": "Type IV, tan",
+    "V": "Type V, brown",
+    "VI": "Type VI, dark",
+    "S1": "Light, pale (S1)",
+    "S2": "Light, ruddy (S2)",
+    "S3": "Light (S3)",
+    "S4": "Dark (S4)",
+}
+USUAL_SKINS = ("III", "S3")
+"""A new object has the first of them that is shipped."""
+
+
+def skin_items(tables: Iterable[ShippedTable]) -> tuple[tuple[str, str, str, int], ...]:
+    """Items of the enumeration: shipped skins, then the user's own file.
+
+    A skin's number follows from its name, so that files stay right when more skins are shipped.
+    """
+    shipped = tuple(
+        (
+            table.name,
+            SKIN_LABELS.get(table.name, f"Skin ({table.name})"),
+            _description(table),
+            zlib.crc32(table.name.encode()) & 0x7FFFFFFF,
+        )
+        for table in tables
+    )
+    return (*shipped, (FILE, "Table File", "A skin table of your own, in an EXR file", 0))
+
+
+def _description(table: ShippedTable) -> str:
+    if table.problem:
+        return f"This skin cannot be used, install the add-on anew: {table.problem}"
+    kind = "Fitzpatrick skin type" if table.name in TYPES else "Skin of specimen"
+    return f"{kind} {table.name}, {table.pigmentation} pigmentation"
+
+
+def usual_skin(names: Sequence[str]) -> str:
+    """The skin of a new object, out of those on offer."""
+    return next((name for name in USUAL_SKINS if name in names), names[0])
+
+
+SKIN_ITEMS = skin_items(SHIPPED)
+USUAL_SKIN = usual_skin([*(table.name for table in SHIPPED if not table.problem), FILE])

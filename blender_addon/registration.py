@@ -1,0 +1,19 @@
+"""All classes of the add-on, and where Blender keeps their properties."""
+
+import bpy
+
+from . import ops, props, ui
+
+CLASSES = (*props.CLASSES, *ops.CLASSES, *ui.CLASSES)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Object.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
+
+
+def unregister():
+    del bpy.types.Object.skin_tan
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,190 @@
+"""Materials that show a tan: found through an object's slots, copied where others show them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import bpy
+
+from . import nodes
+from .ownership import NewBlocks, Users, is_local
+
+PREFIX = "Skin Tan "
+
+
+@dataclass
+class Skin:
+    """The tan's node group of one object, and what leads to it.
+
+    Attributes
+    ----------
+    group : ShaderNodeTree
+        Of the object alone.
+    material : Material
+        One that shows the group.
+    users : Users
+        As they were before anything was made.
+    others : set of ID
+        Who else shows the group that was found, and keeps it.
+    """
+
+    group: bpy.types.NodeTree
+    material: bpy.types.Material
+    users: Users
+    others: set[bpy.types.ID] = field(default_factory=set)
+    _chain: list[bpy.types.ID] = field(default_factory=list)
+    _copies: dict[bpy.types.ID, bpy.types.ID] = field(default_factory=dict)
+
+    def attach(self, obj: bpy.types.Object) -> str:
+        """Have the object show the group, and return a sentence on it."""
+        for block in self._chain:
+            _repoint(_tree(self._copies.get(block, block)), self._copies)
+        obj.skin_tan.group, obj.skin_tan.material = self.group, self.material
+        slots = [slot for slot in obj.material_slots if slot.material in self._chain]
+        for slot in slots:
+            if slot.material in self._copies:
+                _set_slot(obj, slot, self._copies[slot.material])
+        if slots:
+            return f"Updated {self.material.name!r}."
+        return _put_in_active_slot(obj, self.material)
+
+
+def prepare(obj: bpy.types.Object, blocks: NewBlocks) -> Skin:
+    """The object's tan group, to be changed without a change for others; a new one if it has none.
+
+    Nothing that the file had before is changed until `Skin.attach`.
+
+    Raises
+    ------
+    InputError
+        If a newer version of the add-on made the group.
+    """
+    users = Users()
+    materials = list(dict.fromkeys(slot.material for slot in obj.material_slots if slot.material))
+    group = _group_of(obj, materials)
+    if group is None and obj.skin_tan.material is not None:
+        materials = [obj.skin_tan.material]
+        group = _group_of(obj, materials)
+    if group is None:
+        return _new_skin(obj, blocks, users)
+    nodes.require_readable(group)
+    chain = list(_chain(materials, group))
+    copies = {
+        block: _copy(block, obj, blocks)
+        for block in chain
+        if not is_local(block) or users.others(block, obj)
+    }
+    return Skin(
+        group=copies.get(group, group),
+        material=copies.get(chain[0], chain[0]),
+        users=users,
+        others=users.others(group, obj),
+        _chain=chain,
+        _copies=copies,
+    )
+
+
+def _copy(block: bpy.types.ID, obj: bpy.types.Object, blocks: NewBlocks) -> bpy.types.ID:
+    copy = blocks.add(block.copy())
+    if block.name.startswith(PREFIX):
+        # A name for people only: after the object, as that of a new one.
+        copy.name = PREFIX + obj.name
+    return copy
+
+
+def _new_skin(obj: bpy.types.Object, blocks: NewBlocks, users: Users) -> Skin:
+    name = PREFIX + obj.name
+    group = nodes.new_group(blocks, name)
+    material = blocks.add(bpy.data.materials.new(name))
+    if material.node_tree is None:
+        material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    skin = tree.nodes.new("ShaderNodeGroup")
+    skin.node_tree, skin.width, skin.location = group, 200, (0, 0)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location = (260, 0)
+    tree.links.new(skin.outputs["Surface"], output.inputs["Surface"])
+    return Skin(group, material, users)
+
+
+def _group_of(
+    obj: bpy.types.Object, materials: list[bpy.types.Material]
+) -> bpy.types.NodeTree | None:
+    """The tan group in an object's materials: its own, or else the active material's, or any."""
+    shown = [group for material in materials for group in _tan_groups(_tree(material))]
+    if obj.skin_tan.group in shown:
+        return obj.skin_tan.group
+    if obj.active_material in materials:
+        shown = [*_tan_groups(_tree(obj.active_material)), *shown]
+    return shown[0] if shown else None
+
+
+def _tree(block: bpy.types.ID) -> bpy.types.NodeTree | None:
+    return block.node_tree if isinstance(block, bpy.types.Material) else block
+
+
+def _nested(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.NodeTree]:
+    """Node groups in a tree, each once; Blender lets no group hold itself."""
+    inside = (getattr(node, "node_tree", None) for node in (tree.nodes if tree else ()))
+    yield from dict.fromkeys(group for group in inside if group is not None)
+
+
+def _tan_groups(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.NodeTree]:
+    """Tan groups in a tree, at any depth."""
+    for group in _nested(tree):
+        if nodes.is_tan_group(group):
+            yield group
+        else:
+            yield from _tan_groups(group)
+
+
+def _chain(
+    materials: list[bpy.types.Material], group: bpy.types.NodeTree
+) -> Iterator[bpy.types.ID]:
+    """Materials that show a group, the groups that hold it, and last the group itself."""
+    held = {}
+    for material in materials:
+        if group in _tan_groups(_tree(material)):
+            yield material
+            held.update(dict.fromkeys(_holding(_tree(material), group)))
+    yield from held
+    yield group
+
+
+def _holding(
+    tree: bpy.types.NodeTree | None, group: bpy.types.NodeTree
+) -> Iterator[bpy.types.NodeTree]:
+    for nested in _nested(tree):
+        if nested != group and group in _tan_groups(nested):
+            yield nested
+            yield from _holding(nested, group)
+
+
+def _repoint(tree: bpy.types.NodeTree | None, copies: dict) -> None:
+    """Put copies in place of node groups."""
+    for node in tree.nodes if tree else ():
+        if getattr(node, "node_tree", None) in copies:
+            node.node_tree = copies[node.node_tree]
+
+
+def _set_slot(obj: bpy.types.Object, slot, material: bpy.types.Material) -> None:
+    if obj.data.users > 1 and slot.link == "DATA":
+        # Other objects have this mesh too: they keep their own skin.
+        slot.link = "OBJECT"
+    slot.material = material
+
+
+def _put_in_active_slot(obj: bpy.types.Object, material: bpy.types.Material) -> str:
+    if not obj.material_slots:
+        obj.data.materials.append(None)
+    slot = obj.material_slots[obj.active_material_index]
+    former = slot.material
+    _set_slot(obj, slot, material)
+    if former is None:
+        return f"Applied {material.name!r}."
+    # An artist's material must not be lost on saving for want of a user.
+    former.use_fake_user = True
+    return (
+        f"Applied {material.name!r} to slot {slot.slot_index + 1} in place of {former.name!r}; "
+        "other slots are unchanged."
+    )

@@ -1,0 +1,267 @@
+"""The node group of a tan: it samples two images by day and share of the dose.
+
+A node that this add-on makes says in a custom property what it is for, its role. Apply writes into
+nodes of a role the few values that it owns, and leaves all other nodes, links and values alone.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bpy
+
+from hylios.errors import InputError
+
+from . import images
+from .ownership import NewBlocks
+
+DAY_PROPERTY = "tan_day"
+# Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
+RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
+
+LAYOUT_KEY, LAYOUT = "skin_tan_layout", 1
+"""Custom property of a group that says that this add-on made it, and by which plan."""
+
+PROFILE_KEY = "skin_tan_profile"
+"""Custom property of a group: whether its table has a profile, so that light scatters below."""
+
+ROLE_KEY = "skin_tan_role"
+
+
+@dataclass(frozen=True)
+class Role:
+    """A kind of node in the group; the label tells it in files without roles."""
+
+    kind: str
+    label: str
+    location: tuple[int, int]
+
+
+ROLES = {
+    "mask": Role("ShaderNodeAttribute", "Share", (-1200, 250)),
+    "share": Role("ShaderNodeMath", "Share or all", (-1000, 250)),
+    "day": Role("ShaderNodeAttribute", "Day", (-1000, 0)),
+    "column": Role("ShaderNodeMapRange", "Share to column", (-800, 250)),
+    "row": Role("ShaderNodeMapRange", "Day to row", (-800, 0)),
+    "place": Role("ShaderNodeCombineXYZ", "Place in table", (-600, 150)),
+    "colour": Role("ShaderNodeTexImage", "Colour", (-400, 250)),
+    "width": Role("ShaderNodeTexImage", "Profile width (mm)", (-400, -50)),
+    "radius": Role("ShaderNodeValue", "Width to radius", (-350, -350)),
+    "input": Role("NodeGroupInput", "", (-400, 450)),
+    "skin": Role("ShaderNodeBsdfPrincipled", "Skin", (-50, 300)),
+    "output": Role("NodeGroupOutput", "", (300, 300)),
+}
+LINKS = (
+    ("mask", "Fac", "share", 0),
+    ("share", "Value", "column", "Value"),
+    ("day", "Fac", "row", "Value"),
+    ("column", "Result", "place", "X"),
+    ("row", "Result", "place", "Y"),
+    ("place", "Vector", "colour", "Vector"),
+    ("place", "Vector", "width", "Vector"),
+    ("colour", "Color", "skin", "Base Color"),
+    ("width", "Color", "skin", "Subsurface Radius"),
+    ("radius", "Value", "skin", "Subsurface Scale"),
+    ("input", "Roughness", "skin", "Roughness"),
+    ("input", "Specular", "skin", "Specular IOR Level"),
+    ("skin", "BSDF", "output", "Surface"),
+    ("colour", "Color", "output", "Colour"),
+    ("width", "Color", "output", "Profile Width"),
+)
+FORMER_ROLES = ("mask", "day", "column", "row", "place", "colour", "width", "radius", "skin")
+"""What the groups of the first version have, `mask` only where a mask was set."""
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """The two images of a tan, and what their axes mean.
+
+    Attributes
+    ----------
+    colour, width : Image
+        Of colour, and of profile width in mm.
+    has_profile : bool
+        Whether light scatters below the surface; without, `width` is one black pixel.
+    first_day, last_day : float
+        Of the first and the last row.
+    mask_attribute : str
+        With the share of the dose at each point; without one every place gets all of it.
+    scene_unit : float
+        Length of a scene unit in metres.
+    """
+
+    colour: bpy.types.Image
+    width: bpy.types.Image
+    has_profile: bool
+    first_day: float
+    last_day: float
+    mask_attribute: str
+    scene_unit: float
+
+
+def is_tan_group(tree: bpy.types.NodeTree) -> bool:
+    """Whether this add-on, or its first version, made a node group."""
+    return LAYOUT_KEY in tree or _is_of_first_version(tree)
+
+
+def require_readable(group: bpy.types.NodeTree) -> None:
+    """Raise InputError where a newer version of the add-on made a group."""
+    if group.get(LAYOUT_KEY, LAYOUT) != LAYOUT:
+        raise InputError(
+            f"A newer version of this add-on made the node group {group.name!r}; install that one."
+        )
+
+
+def new_group(blocks: NewBlocks, name: str) -> bpy.types.NodeTree:
+    """A new node group, for `update` to fill with numbers."""
+    group = blocks.add(bpy.data.node_groups.new(name, "ShaderNodeTree"))
+    _add_sockets(group)
+    _complete(group)
+    return group
+
+
+def update(group: bpy.types.NodeTree, sampled: Sampled) -> dict[bpy.types.Image, bpy.types.Image]:
+    """Have a tan's group show other images, and return by which each of the former was replaced.
+
+    What an artist changed in it otherwise stays: nodes, links, values.
+    """
+    if LAYOUT_KEY not in group:
+        _take_over(group)
+    replaced = {
+        node.image: image
+        for role, image in (("colour", sampled.colour), ("width", sampled.width))
+        for node in _of_role(group, role)
+        if node.image is not None
+    }
+    _set_numbers(group, sampled)
+    _set_profile(group, sampled)
+    return replaced
+
+
+def missing_roles(group: bpy.types.NodeTree) -> list[str]:
+    """Labels of nodes without which a group cannot show the tan, and which it lacks."""
+    needed = ("day", "row", "column", "place", "colour")
+    return [ROLES[role].label for role in needed if not list(_of_role(group, role))]
+
+
+def _of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
+    """Nodes of a role: an artist may have duplicated some."""
+    return (node for node in group.nodes if node.get(ROLE_KEY) == role)
+
+
+def _add_sockets(group) -> None:
+    interface = group.interface
+    for label, default in (("Roughness", 0.45), ("Specular", 0.5)):
+        socket = interface.new_socket(label, in_out="INPUT", socket_type="NodeSocketFloat")
+        socket.subtype = "FACTOR"
+        socket.min_value, socket.max_value = 0.0, 1.0
+        socket.default_value = default
+    interface.new_socket("Surface", in_out="OUTPUT", socket_type="NodeSocketShader")
+    interface.new_socket("Colour", in_out="OUTPUT", socket_type="NodeSocketColor")
+    interface.new_socket("Profile Width", in_out="OUTPUT", socket_type="NodeSocketVector")
+
+
+def _complete(group) -> None:
+    """Make the nodes of all roles that a group lacks, and their links."""
+    present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
+    made = set(ROLES) - set(present)
+    for role in (role for role in ROLES if role in made):
+        present[role] = _new_node(group, role)
+    for source, output, target, socket in LINKS:
+        if {source, target} & made:
+            group.links.new(present[source].outputs[output], _input(present[target], socket))
+    group[LAYOUT_KEY] = LAYOUT
+
+
+def _new_node(group, role: str):
+    plan = ROLES[role]
+    node = group.nodes.new(plan.kind)
+    node.label, node.location, node[ROLE_KEY] = plan.label, plan.location, role
+    if role in ("column", "row"):
+        node.clamp = True
+    elif role in ("colour", "width"):
+        node.interpolation, node.extension = "Linear", "EXTEND"
+    elif role == "share":
+        node.operation = "MAXIMUM"
+    elif role == "day":
+        node.attribute_type, node.attribute_name = "OBJECT", DAY_PROPERTY
+    elif role == "mask":
+        node.attribute_type = "GEOMETRY"
+    elif role == "skin":
+        node.subsurface_method = "BURLEY"
+        _input(node, "Subsurface Weight").default_value = 0.0
+        _input(node, "IOR").default_value = 1.4
+    return node
+
+
+def _input(node, socket: str | int):
+    """By number, identifier or name: a Principled BSDF hides the names of some sockets."""
+    if isinstance(socket, int):
+        return node.inputs[socket]
+    by_identifier = {item.identifier: item for item in node.inputs}
+    return by_identifier.get(socket) or node.inputs[socket]
+
+
+def _set_numbers(group, sampled: Sampled) -> None:
+    for node in _of_role(group, "mask"):
+        node.attribute_name = sampled.mask_attribute
+    for node in _of_role(group, "share"):
+        node.inputs[1].default_value = 0.0 if sampled.mask_attribute else 1.0
+    columns, rows = sampled.colour.size
+    for node in _of_role(group, "column"):
+        _map_to_texels(node, 0.0, 1.0, columns)
+    for node in _of_role(group, "row"):
+        _map_to_texels(node, sampled.first_day, sampled.last_day, rows)
+    for node in _of_role(group, "colour"):
+        node.image = sampled.colour
+    for node in _of_role(group, "width"):
+        node.image = sampled.width
+    for node in _of_role(group, "radius"):
+        node.outputs[0].default_value = RADIUS_PER_MILLIMETRE / sampled.scene_unit
+
+
+def _map_to_texels(node, low: float, high: float, texels: int) -> None:
+    """Map low to the centre of the first texel and high to that of the last."""
+    node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
+    node.inputs["To Min"].default_value = 0.5 / texels
+    node.inputs["To Max"].default_value = 1.0 - 0.5 / texels
+
+
+def _set_profile(group, sampled: Sampled) -> None:
+    """Turn subsurface on or off, but only where the table brings a change: it may be edited."""
+    if bool(group.get(PROFILE_KEY)) != sampled.has_profile:
+        for node in _of_role(group, "skin"):
+            _input(node, "Subsurface Weight").default_value = float(sampled.has_profile)
+    group[PROFILE_KEY] = sampled.has_profile
+
+
+def _is_of_first_version(tree) -> bool:
+    """Whether a group has the nodes that the first version made, which bear no roles."""
+    if LAYOUT_KEY in tree or tree.bl_idname != "ShaderNodeTree":
+        return False
+    present = {(node.bl_idname, node.label) for node in tree.nodes}
+    needed = ("day", "column", "row", "place", "colour")
+    return all((ROLES[role].kind, ROLES[role].label) in present for role in needed)
+
+
+def _take_over(group) -> None:
+    """Give the nodes of a group of the first version their roles, and add what it lacked."""
+    for role in FORMER_ROLES:
+        plan = ROLES[role]
+        for node in group.nodes:
+            if (node.bl_idname, node.label) == (plan.kind, plan.label):
+                node[ROLE_KEY] = role
+    for role in ("input", "output"):
+        for node in group.nodes:
+            if node.bl_idname == ROLES[role].kind:
+                node[ROLE_KEY] = role
+    for role in ("colour", "width"):
+        for node in _of_role(group, role):
+            if node.image is not None and node.image.name.startswith("Skin Tan "):
+                node.image[images.MARK] = True
+    group[PROFILE_KEY] = any(True for _ in _of_role(group, "width"))
+    _complete(group)
+    for node in list(group.nodes):
+        is_former_share = node.bl_idname == "ShaderNodeValue" and node.label == "Share"
+        if is_former_share and not node.outputs[0].is_linked:
+            group.nodes.remove(node)

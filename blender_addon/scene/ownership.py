@@ -1,0 +1,92 @@
+"""Whose a data-block is: who shows it, and copies for one object alone.
+
+Data-blocks are found by the pointers that lead to them, never by name. What only one object shows
+may be changed in place; of what others show too, the object gets a copy of its own.
+"""
+
+from collections.abc import Iterable
+from types import TracebackType
+from typing import TypeVar
+
+import bpy
+
+Block = TypeVar("Block", bound=bpy.types.ID)
+
+
+class NewBlocks:
+    """Data-blocks made so far; where an exception ends the `with`, they are removed again."""
+
+    def __init__(self) -> None:
+        self._blocks: list[bpy.types.ID] = []
+
+    def add(self, block: Block) -> Block:
+        self._blocks.append(block)
+        return block
+
+    def __enter__(self) -> "NewBlocks":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if kind is not None:
+            bpy.data.batch_remove(self._blocks)
+
+
+class Users:
+    """What uses what in the file, as it was when this was made."""
+
+    def __init__(self) -> None:
+        self._users = bpy.data.user_map()
+
+    def others(self, block: bpy.types.ID, obj: bpy.types.Object) -> set[bpy.types.ID]:
+        """Objects besides one, worlds and the like, that show a data-block.
+
+        Materials that nothing shows do not count, nor objects that were given another material
+        since Apply.
+        """
+        found, seen, waiting = set(), {block}, [block]
+        while waiting:
+            used = waiting.pop()
+            for user in self._users.get(used, set()) - seen:
+                if isinstance(user, bpy.types.Object):
+                    if user != obj and not _is_only_remembered(user, used):
+                        found.add(user)
+                elif isinstance(user, bpy.types.Material | bpy.types.NodeTree):
+                    seen.add(user)
+                    waiting.append(user)
+                elif isinstance(used, bpy.types.Material) and hasattr(user, "materials"):
+                    found |= self._showing(user, used) - {obj}
+                else:
+                    found.add(user)
+        return found
+
+    def _showing(self, data: bpy.types.ID, material: bpy.types.Material) -> set[bpy.types.ID]:
+        """Objects of a mesh, or of other data with materials, that have a material in a slot."""
+        objects = (user for user in self._users[data] if isinstance(user, bpy.types.Object))
+        return {user for user in objects if _has_in_slot(user, material)}
+
+
+def _has_in_slot(obj: bpy.types.Object, material: bpy.types.ID) -> bool:
+    return any(slot.material == material for slot in obj.material_slots)
+
+
+def _is_only_remembered(obj: bpy.types.Object, block: bpy.types.ID) -> bool:
+    """Whether an object has a data-block in its settings from an earlier Apply and nowhere else."""
+    settings = obj.skin_tan
+    return block in (settings.group, settings.material) and not _has_in_slot(obj, block)
+
+
+def is_local(block: bpy.types.ID) -> bool:
+    """Whether a data-block is this file's to change: neither linked nor an override."""
+    return block.library is None and block.override_library is None
+
+
+def names(blocks: Iterable[bpy.types.ID]) -> str:
+    """Names for a sentence: three at most."""
+    listed = sorted(repr(block.name) for block in blocks)
+    more = f" and {len(listed) - 3} more" if len(listed) > 3 else ""
+    return ", ".join(listed[:3]) + more

@@ -1,0 +1,6 @@
+"""The panel in the 3D view's sidebar: it shows values and remembered lines, computes nothing."""
+
+from .exposures import SKIN_TAN_UL_exposures
+from .panel import VIEW3D_PT_skin_tan
+
+CLASSES = (SKIN_TAN_UL_exposures, VIEW3D_PT_skin_tan)

@@ -1,0 +1,64 @@
+"""The list of exposures, and the selected one."""
+
+import bpy
+
+from hylios.errors import InputError
+
+from ..model import summary
+from ..model.settings import Exposure
+from .lines import draw_lines
+
+FIELDS = {
+    "SED": (("dose",),),
+    "MMD": (("multiple",),),
+    "UV_INDEX": (("uv_index", "duration"),),
+    "SUN": (("latitude",), ("month", "day_of_month"), ("from_hour", "to_hour")),
+}
+"""What is shown of an exposure by its unit, row by row."""
+
+
+class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property):
+        row = layout.row(align=True)
+        row.use_property_split = False
+        row.prop(item, "day", text="Day", emboss=False)
+        if item.unit == "SED":
+            row.prop(item, "dose", text="SED", emboss=False)
+        else:
+            row.label(text=summary.of_exposure(Exposure.of(item)))
+
+
+def draw_exposures(layout: bpy.types.UILayout, settings) -> None:
+    row = layout.row()
+    row.template_list(
+        "SKIN_TAN_UL_exposures", "", settings, "exposures", settings, "exposure_index", rows=3
+    )
+    buttons = row.column(align=True)
+    buttons.operator("skin_tan.add_exposure", text="", icon="ADD")
+    buttons.operator("skin_tan.remove_exposure", text="", icon="REMOVE")
+    if not settings.exposures:
+        layout.label(text="Add a time in the sun with +", icon="INFO")
+        return
+    exposure = settings.exposures[min(settings.exposure_index, len(settings.exposures) - 1)]
+    layout.prop(exposure, "unit")
+    column = layout.column(align=True)
+    for names in FIELDS[exposure.unit]:
+        row = column.row(align=True)
+        for name in names:
+            row.prop(exposure, name)
+    layout.prop(exposure, "sunscreen")
+    if exposure.sunscreen:
+        row = layout.row(align=True)
+        row.prop(exposure, "spf")
+        row.prop(exposure, "sunscreen_amount")
+    draw_lines(layout, *dose_lines(settings, Exposure.of(exposure)))
+
+
+def dose_lines(settings, exposure: Exposure) -> tuple[tuple[str, ...], str]:
+    """Short lines on the dose that reaches the skin in an exposure, and their icon."""
+    try:
+        lines = summary.of_dose(exposure, settings.table_file(), settings.own_doses())
+    except InputError as error:
+        # Apply says it in full; here it would be cut off.
+        return ("No dose: " + str(error).split(";")[0][: summary.LINE],), "ERROR"
+    return lines, "LIGHT_SUN"

@@ -1,0 +1,87 @@
+"""The panel, from top to bottom."""
+
+import bpy
+
+from hylios.errors import InputError
+
+from ..model import summary
+from ..model.catalogue import FILE
+from ..ops.active import active_mesh
+from ..scene.nodes import DAY_PROPERTY
+from .exposures import draw_exposures
+from .lines import draw_lines
+
+
+class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
+    bl_label = "Skin Tan"
+    bl_idname = "VIEW3D_PT_skin_tan"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Tan"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_decorate = False
+        obj = active_mesh(context)
+        if obj is None:
+            layout.label(text="Select a mesh object", icon="INFO")
+            return
+        settings = obj.skin_tan
+        _draw_skin(_section(layout, "Skin"), settings)
+        draw_exposures(_section(layout, "Time in the Sun"), settings)
+        _draw_mask(_section(layout, "Where the Sun Reaches"), obj)
+        _draw_timeline(_section(layout, "Timeline"), settings)
+        layout.separator()
+        row = layout.row()
+        row.scale_y = 1.5
+        row.operator("skin_tan.apply", icon="MATERIAL")
+        layout.operator("skin_tan.export_schedule", icon="EXPORT")
+        if DAY_PROPERTY in obj:
+            layout.label(text=f"This frame shows day {obj[DAY_PROPERTY]:.1f}", icon="TIME")
+
+
+def _section(layout: bpy.types.UILayout, title: str) -> bpy.types.UILayout:
+    layout.separator()
+    column = layout.column()
+    column.label(text=title)
+    return column
+
+
+def _draw_skin(layout: bpy.types.UILayout, settings) -> None:
+    layout.prop(settings, "skin", text="")
+    if settings.skin == FILE:
+        layout.prop(settings, "table_path", text="")
+    draw_lines(layout, *skin_lines(settings))
+    layout.prop(settings, "own_minimal_doses")
+    if settings.own_minimal_doses:
+        column = layout.column(align=True)
+        column.prop(settings, "mmd")
+        column.prop(settings, "med")
+
+
+def skin_lines(settings) -> tuple[tuple[str, ...], str]:
+    """Short lines on what the skin's table says of it, and their icon."""
+    if settings.skin == FILE and not settings.table_path:
+        return ("Choose a skin table (EXR file)",), "INFO"
+    try:
+        return summary.of_table(settings.table_file()), "INFO"
+    except InputError:
+        # The whole sentence would be cut off here; Apply reports it.
+        if settings.skin == FILE:
+            return ("This is not a usable skin table",), "ERROR"
+        return ("This skin's table is damaged:", "install the add-on anew"), "ERROR"
+
+
+def _draw_mask(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    layout.prop_search(
+        obj.skin_tan, "mask_attribute", obj.data, "attributes", text="", icon="MOD_MASK"
+    )
+    if not obj.skin_tan.mask_attribute:
+        layout.label(text="No mask: the whole body is bare", icon="INFO")
+
+
+def _draw_timeline(layout: bpy.types.UILayout, settings) -> None:
+    for day, frame in (("first_day", "first_frame"), ("last_day", "last_frame")):
+        row = layout.row(align=True)
+        row.prop(settings, day, text="Day")
+        row.prop(settings, frame, text="at Frame")

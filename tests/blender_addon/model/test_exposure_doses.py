@@ -1,0 +1,95 @@
+"""Exposures as an artist gives them, against the functions of hylios that turn them into doses."""
+
+from datetime import date
+
+import numpy as np
+import pytest
+
+from blender_addon.model import doses
+from blender_addon.model.settings import Exposure
+from hylios.errors import InputError
+from hylios.sun.action_spectra import Absorptance
+from hylios.sun.doses import of_sun
+
+HEADER = {"absorptance": {"wavelengths_nm": [280.0, 340.0, 400.0], "values": [0.97, 0.9, 0.7]}}
+USUAL = {
+    "day": 3.0,
+    "unit": "SED",
+    "dose": 10.0,
+    "multiple": 2.5,
+    "uv_index": 8.0,
+    "duration": 2.5,
+    "latitude": 40.0,
+    "month": 7,
+    "day_of_month": 15,
+    "from_hour": 11.0,
+    "to_hour": 13.5,
+    "sunscreen": False,
+    "spf": 30.0,
+    "sunscreen_amount": 2.0,
+}
+
+
+def received(**changes):
+    return doses.received([Exposure(**{**USUAL, **changes})], 4.0, HEADER)
+
+
+def test_the_same_in_all_units_but_the_sun():
+    """10 SED; 2.5 MMD of 4 SED; an hour and a bit at UV index 8, spread over its hours."""
+    for changes in ({}, {"unit": "MMD"}):
+        once = received(**changes)
+        assert once.hours.tolist() == [72] and once.melanogenesis.tolist() == [10.0]
+    spread = received(unit="UV_INDEX")
+    assert spread.hours.tolist() == [72.0, 73.0, 74.0]
+    assert spread.thickening == pytest.approx([7.2, 7.2, 3.6])
+
+
+def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
+    sun = received(unit="SUN", day=3.4)
+    absorptance = HEADER["absorptance"]
+    skin = Absorptance(np.array(absorptance["wavelengths_nm"]), np.array(absorptance["values"]))
+    expected = of_sun(date(doses.ANY_YEAR, 7, 15), 11.0, 13.5, 40.0, skin)
+    assert sun.hours.tolist() == [72 + 11, 72 + 12, 72 + 13]
+    assert np.array_equal(sun.melanogenesis, expected.melanogenesis)
+    assert np.all(sun.melanogenesis > sun.erythemal)
+    assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * sun.erythemal)
+
+
+def test_thin_sunscreen_lets_through_the_root():
+    """SPF 30 at 2 and at 0.5 mg/cm^2: a thirtieth, and the fourth root of that."""
+    assert received(sunscreen=True).thickening == pytest.approx([10.0 / 30.0])
+    thin = received(sunscreen=True, sunscreen_amount=0.5)
+    assert thin.melanogenesis == pytest.approx([10.0 * 30.0**-0.25])
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"day": -1.0}, "day of an exposure is -1"),
+        ({"unit": "SUN", "month": 2, "day_of_month": 30}, "day of the month is 30, which month 2"),
+        ({"unit": "SUN", "from_hour": 15.0}, "sun is asked for from 15 to 13.5 h"),
+        ({"sunscreen": True, "spf": 0.5}, "SPF is 0.5; allowed is 1 to"),
+        ({"dose": 1e308}, "dose of an exposure is 1e\\+308 SED; allowed is 0 to"),
+        ({"dose": float("nan")}, "dose of an exposure is nan SED"),
+        ({"unit": "MMD", "multiple": 1e308}, "times the tanning dose is 1e\\+308; allowed is 0 to"),
+        ({"unit": "UV_INDEX", "uv_index": float("nan")}, "UV index is nan; allowed is 0 to 50"),
+        ({"unit": "UV_INDEX", "duration": 1e308}, "duration is 1e\\+308 hours; allowed is 0 to"),
+        ({"unit": "SUN", "from_hour": float("nan")}, "hour of sun is nan; allowed is 0 to 24"),
+        ({"unit": "SUN", "from_hour": float("inf")}, "hour of sun is inf; allowed is 0 to 24"),
+        ({"unit": "SUN", "latitude": 1e308}, "latitude is 1e\\+308"),
+        ({"unit": "SUN", "month": 13}, "month is 13; allowed is 1 to 12"),
+        ({"sunscreen": True, "sunscreen_amount": float("nan")}, "nan"),
+        ({"unit": "GY"}, "unit of an exposure is 'GY'; allowed are SED, MMD, UV_INDEX and SUN"),
+    ],
+)
+def test_what_cannot_be_is_named(changes, sentence):
+    with pytest.raises(InputError, match=sentence):
+        received(**changes)
+
+
+def test_a_table_without_absorptance_has_no_sun():
+    exposure = Exposure(**{**USUAL, "unit": "SUN"})
+    with pytest.raises(InputError, match="what its skin absorbs in the ultraviolet"):
+        doses.received([exposure], 4.0, {})
+    with pytest.raises(InputError, match="what its skin absorbs"):
+        doses.absorptance({"absorptance": {"wavelengths_nm": None, "values": 3}})

@@ -1,0 +1,131 @@
+"""What a table, doses and days lead to, as images."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from synthetic import smooth_table
+
+from blender_addon.model import catalogue, doses, schedule
+from blender_addon.model import tan as module
+from blender_addon.model.settings import Exposure, MinimalDoses, TanSettings
+from blender_addon.model.tan import tan, tan_of
+from hylios.errors import InputError
+from hylios.skin import varied
+from hylios.sun.doses import of_sed
+from hylios.table import described_dynamics
+from hylios.tanning import PIGMENTATIONS, states_at
+
+SPAN = {"mmd": 4.9, "med": 2.9, "first_day": 0.0, "last_day": 10.0}
+
+
+def with_header(table, **changes):
+    return replace(table, provenance={**table.provenance, **changes})
+
+
+def darkest(table) -> float:
+    return float(tan(table, of_sed(0, 30.0), **SPAN).colour.min())
+
+
+def test_the_dynamics_in_the_header_count(table):
+    """As numbers where they are there, by the set's name where not."""
+    usual = PIGMENTATIONS["intermediate"]
+    spelt = with_header(table, melanin_dynamics=described_dynamics(usual), pigmentation="low")
+    assert darkest(spelt) == darkest(table)
+    less = varied(usual, {"basale_extra_production": 0.0, "spinosum_extra_production": 0.0})
+    assert darkest(with_header(table, melanin_dynamics=described_dynamics(less))) > darkest(table)
+
+
+def settings(path, **changes):
+    exposure = Exposure(
+        day=0.0,
+        unit="SUN",
+        dose=10.0,
+        multiple=2.0,
+        uv_index=8.0,
+        duration=2.0,
+        latitude=40.0,
+        month=7,
+        day_of_month=15,
+        from_hour=11.0,
+        to_hour=15.0,
+        sunscreen=False,
+        spf=30.0,
+        sunscreen_amount=2.0,
+    )
+    usual = {"own_doses": None, "exposures": (exposure,), "first_day": 3.0, "last_day": 10.0}
+    return TanSettings(table=path, **{**usual, **changes})
+
+
+def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
+    """Sun counts more for melanin; only the days between the first and the last are simulated."""
+    arguments = {}
+
+    def recorded(exposures, dynamics, **more):
+        arguments.update(more, exposures=exposures)
+        return states_at(exposures, dynamics, **more)
+
+    monkeypatch.setattr(module, "states_at", recorded)
+    values = settings(table_path, own_doses=MinimalDoses(mmd=6.0, med=4.0))
+    tan_of(values)
+    assert (arguments["mmd"], arguments["med"]) == (6.0, 4.0)
+    assert (arguments["times"].min(), arguments["times"].max()) == (72.0, 240.0)
+    whole = doses.of_exposure(values.exposures[0], 6.0, smooth_table().provenance)
+    assert np.array_equal(arguments["exposures"].doses[-1], whole.melanogenesis)
+    assert np.array_equal(arguments["exposures"].thickening_doses[-1], whole.thickening)
+    assert np.all(whole.melanogenesis > 2.0 * whole.thickening)
+
+
+def test_a_table_that_does_not_say_how_it_tans_is_refused(table):
+    with pytest.raises(InputError, match="the table's pigmentation is 'none'"):
+        darkest(with_header(table, pigmentation="none"))
+    with pytest.raises(InputError, match="the table's melanin dynamics need the rates"):
+        darkest(with_header(table, melanin_dynamics={"production": 1.0}))
+
+
+@pytest.mark.parametrize(
+    ("first_day", "last_day", "sentence"),
+    [
+        (5.0, 5.0, "last day is 5; allowed is more than the first day, 5, to 366"),
+        (0.0, float("nan"), "last day is nan; allowed is 0 to 366"),
+        (-1.0, 5.0, "first day is -1; allowed is 0 to 366"),
+    ],
+)
+def test_days_out_of_order(first_day, last_day, sentence):
+    with pytest.raises(InputError, match=sentence):
+        settings(Path(), first_day=first_day, last_day=last_day)
+
+
+@pytest.mark.parametrize("value", [10**400, "nan", float("nan"), -1, 0, [4.9], None, True, "4.9"])
+@pytest.mark.parametrize("name", ["mmd_sed", "med_sed"])
+def test_a_header_without_usable_minimal_doses(table, name, value):
+    with pytest.raises(InputError, match="the table's minimal dose"):
+        settings(Path()).minimal_doses(with_header(table, **{name: value}).provenance)
+
+
+@pytest.mark.parametrize(
+    "absorptance",
+    [
+        3,
+        [],
+        {"wavelengths_nm": None, "values": 3},
+        {"wavelengths_nm": [280, 400], "values": [0.5, 10**400]},
+        {"wavelengths_nm": [280, 400], "values": [0.5, float("nan")]},
+        {"wavelengths_nm": [280, 400], "values": ["a", "b"]},
+        {"wavelengths_nm": [280, 400], "values": [0.5]},
+        {"wavelengths_nm": [400, 280], "values": [0.5, 0.5]},
+    ],
+)
+def test_a_header_without_usable_absorptance(absorptance):
+    with pytest.raises(InputError, match="does not say what its skin absorbs in the ultraviolet"):
+        doses.absorptance({"absorptance": absorptance})
+
+
+def test_text_of_a_header_cannot_break_a_schedule(table, tmp_path, monkeypatch):
+    """Line breaks, terminal escapes, half a surrogate pair: all on a line that can be saved."""
+    header = with_header(table, specimen="S3\n0,1e9,1e9\x1b[2J\ud800").provenance
+    monkeypatch.setattr(catalogue, "provenance", lambda path: header)
+    text = schedule.csv_text("Bo\ndy", settings(tmp_path / "absent.exr"))
+    assert "# sun of Bo dy," in text and "# skin: S3 0,1e9,1e9 [2J\n" in text
+    text.encode("utf-8")

@@ -1,7 +1,6 @@
 """Points of time against error, the front among them, and choosing one."""
 
 import csv
-import io
 import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
@@ -12,6 +11,8 @@ import numpy as np
 
 from hylios.errors import InputError, require_range
 from hylios.files import written_beside
+from hylios.readers.quantities import Quantity
+from hylios.readers.table import Table, read_table, table_of
 from lut_builder.settings import PRESETS, Settings
 
 SHIPPED = "front.csv"
@@ -214,6 +215,9 @@ TRADED = (
 )
 """Settings that a front's file tells; the others are the defaults."""
 
+LARGEST = 1e9
+"""Seconds or errors that a front may tell."""
+
 FIGURES = tuple(each.name for each in fields(Point))[1:]
 
 
@@ -252,39 +256,45 @@ def read_points(path: Path) -> list[Point]:
     InputError
         If the file cannot be read or is no such.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"the front {path} cannot be read: {error}.") from error
-    return _points(text, str(path))
+    return _points(read_table(path, COLUMNS))
 
 
 def shipped_points() -> list[Point]:
     """The front that the package ships; its file says of which machine and skin."""
-    return _points((files("lut_builder.trade") / SHIPPED).read_text(encoding="utf-8"), SHIPPED)
+    text = (files("lut_builder.trade") / SHIPPED).read_text(encoding="utf-8")
+    return _points(table_of(text.splitlines(), SHIPPED, COLUMNS))
 
 
-def _points(text: str, name: str) -> list[Point]:
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
-    try:
-        return [_point(row) for row in csv.DictReader(io.StringIO("\n".join(lines)))]
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"{name} is no front of lut-builder trade: {error}.") from error
+COLUMNS = (
+    *(Quantity(name, is_text=True) for name in TRADED),
+    *(Quantity(name) for name in FIGURES),
+)
 
 
-def _point(row: dict[str, str]) -> Point:
-    made = Settings(
-        knots=tuple(int(each) for each in row["knots"].split()),
+def _points(table: Table) -> list[Point]:
+    figures = {name: table.require_range(name, 0.0, LARGEST) for name in FIGURES}
+    points = []
+    for row, line in enumerate(table.lines):
+        try:
+            made = _settings({name: table.texts[name][row] for name in TRADED})
+        except ValueError as error:
+            raise InputError(
+                f"{table.name} is no front of lut-builder trade; in line {line} "
+                f"{str(error).rstrip('.')}."
+            ) from error
+        points.append(Point(made, **{name: float(figures[name][row]) for name in FIGURES}))
+    return points
+
+
+def _settings(row: dict[str, str]) -> Settings:
+    return Settings(
+        knots=tuple(int(count) for count in row["knots"].split()),
         interpolation=row["interpolation"],
         colour_wavelengths=int(row["colour_wavelengths"]),
         nodes=int(row["nodes"]),
         profile_error=float(row["profile_error"]),
         profile_wavelengths=int(row["profile_wavelengths"]),
     )
-    figures = {name: float(row[name]) for name in FIGURES}
-    if not all(np.isfinite(each) and each >= 0.0 for each in figures.values()):
-        raise ValueError("a figure is negative or no number")
-    return Point(made, **figures)
 
 
 def usable_cores(threads: int | None) -> int:

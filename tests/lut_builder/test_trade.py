@@ -134,6 +134,30 @@ def test_points_are_read_as_they_were_written(tmp_path):
     assert path.read_text().startswith("# a note\n# another, with a comma\nknots,")
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        (",0.75", "", "cannot be read: line 3 has 13 cells and the header has 17"),
+        ("4 3,", "4 x,", "front.csv is no front of lut-builder trade; in line 3 invalid literal"),
+        ("4 3,", "4 0,", "in line 3 number of knots is 0; allowed is 1 to"),
+        (",0.125,", ",-1,", "front.csv has a delta_e_mean of -1 in line 3; allowed is 0 to 1e+09."),
+        (",0.125,", ",nan,", "delta_e_mean in line 3 is nan; allowed are finite numbers"),
+    ],
+)
+def test_a_spoilt_row_of_a_front_is_refused_with_its_line(tmp_path, old, new, sentence):
+    path = tmp_path / "front.csv"
+    made = Settings((4, 3), 6, profile_error=0.02, profile_wavelengths=4, nodes=14)
+    write_points(path, [Point(made, 1.25, 0.5, 2.0, 0.125, 0.25, 0.001, 0.01, 0.03, 0.75)], ["a"])
+    text = path.read_text()
+    spoilt = text.replace(old, new)
+    if not new:
+        spoilt = text.rstrip("\n").rsplit(",", 4)[0] + "\n"
+    path.write_text(spoilt)
+    with pytest.raises(InputError) as caught:
+        read_points(path)
+    assert sentence in str(caught.value)
+
+
 @pytest.mark.parametrize("spoilt", ["", "knots,nodes\n3,22\n", "\0", "x" * 1000])
 def test_another_file_is_refused_as_a_front(tmp_path, spoilt, capsys):
     path = tmp_path / "front.csv"

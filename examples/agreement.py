@@ -19,7 +19,7 @@ from hylios.adding import spectrum as spectrum_without_noise
 from hylios.commands.shell import add_work_arguments, require_work, run
 from hylios.errors import InputError, require_whole
 from hylios.files import written_beside
-from hylios.skin import Skin, skin
+from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, phototype
 from hylios.skin.specimen import SPECIMENS, Specimen
 from hylios.transport.simulate import MOST_RAYS, Progress, spectrum
@@ -98,7 +98,7 @@ def agreement(pairs: Sequence[Pair]) -> Agreement:
 def skins() -> dict[str, Skin]:
     """Those that tan: S1 to S4 and the skin types."""
     types = {name: phototype(name).skin for name in PHOTOTYPES}
-    return {**{name: skin(each) for name, each in SPECIMENS.items()}, **types}
+    return {**{name: Skin.of(each) for name, each in SPECIMENS.items()}, **types}
 
 
 def specimens(seed: int, tanned: int = TANNED) -> list[tuple[str, str, Specimen]]:
@@ -111,14 +111,14 @@ def specimens(seed: int, tanned: int = TANNED) -> list[tuple[str, str, Specimen]
         name, each = known[number % len(known)]
         state = random.choice(reached[number % len(known)])
         printed = " ".join(f"{value:.6g}" for value in state)
-        made.append((name, printed, each.tanned(state[:3], state[3])))
+        made.append((name, printed, each.at(state)))
     return made
 
 
-def _tanned_states(made_for: Skin, seed: int) -> np.ndarray:
+def _tanned_states(skin: Skin, seed: int) -> np.ndarray:
     """States (N, 4) that a skin reaches and that differ from the untanned."""
-    states = reachable_states(made_for, SCHEDULES, seed)
-    change = np.abs(states / untanned_state(made_for) - 1.0).max(axis=1)
+    states = reachable_states(skin, SCHEDULES, seed)
+    change = np.abs(states / untanned_state(skin) - 1.0).max(axis=1)
     return states[change > LEAST_CHANGE]
 
 

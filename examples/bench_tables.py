@@ -79,16 +79,16 @@ def said(what: str, found: str, limit: str, kept: bool) -> None:
     print(f"{what:<58} {found}; must be {limit}: {'yes' if kept else 'NO'}", flush=True)
 
 
-def report_spectra(made_for: Skin) -> None:
+def report_spectra(skin: Skin) -> None:
     """64 states x 61 wavelengths: time, error against a random walk, and the latter's time."""
-    taken, table = spent(lambda: build(made_for, SPECTRA, threads=CORES), REPEATS)
+    taken, table = spent(lambda: build(skin, SPECTRA, threads=CORES), REPEATS)
     said(
         "64 states x 61 wavelengths, solver, 2 cores",
         f"{ranged(taken.clock)} s",
         "30 s or less",
         np.median(taken.clock) <= 30.0,
     )
-    error, uncertain = solver_error(made_for, table)
+    error, uncertain = solver_error(skin, table)
     said(
         "  RMSE against the random walk, its noise taken off",
         f"{error:.2g} (at most {uncertain:.2g} with 95 %)",
@@ -97,7 +97,7 @@ def report_spectra(made_for: Skin) -> None:
     )
     reflectance = table.planes["band_reflectance"]
     rays = float(np.mean(reflectance * (1.0 - reflectance))) / ERROR**2
-    each = [printed_seconds(made_for, table, number) for number in range(REPEATS)]
+    each = [printed_seconds(skin, table, number) for number in range(REPEATS)]
     seconds = [one * rays * reflectance.size for one in each]
     ratio = np.median(seconds) / np.median(taken.processor)
     print(
@@ -107,7 +107,7 @@ def report_spectra(made_for: Skin) -> None:
     said("  ratio of core-seconds", f"{ratio:.3g}", "400 or more", ratio >= 400.0)
 
 
-def solver_error(made_for: Skin, table: SkinTable) -> tuple[float, float]:
+def solver_error(skin: Skin, table: SkinTable) -> tuple[float, float]:
     """RMSE of a table's bands against random walks at some knots, and its upper bound (95 %).
 
     The walk's variance is taken off the mean square.
@@ -116,7 +116,7 @@ def solver_error(made_for: Skin, table: SkinTable) -> tuple[float, float]:
     known = table.planes["band_reflectance"].reshape(len(states), -1)[:, ::WALKED_STEP]
     excess = []
     for place in np.linspace(0, len(states) - 1, WALKED_STATES).astype(int):
-        specimen = made_for.tanned(states[place, :3], states[place, 3])
+        specimen = skin.at(states[place])
         found = walked(specimen, FINE[::WALKED_STEP], angle=ANGLE, rays=WALKED_RAYS, threads=CORES)
         excess.append((known[place] - found.total) ** 2 - found.standard_error**2)
     squares = np.concatenate(excess)
@@ -124,11 +124,11 @@ def solver_error(made_for: Skin, table: SkinTable) -> tuple[float, float]:
     return float(np.sqrt(max(mean, 0.0))), float(np.sqrt(max(mean + 1.645 * error, 0.0)))
 
 
-def printed_seconds(made_for: Skin, table: SkinTable, number: int) -> float:
+def printed_seconds(skin: Skin, table: SkinTable, number: int) -> float:
     """Seconds of one core for a ray as the thesis prints it, at a knot."""
     states = table.axes.knot_states().reshape(-1, 4)
     state = states[(number * len(states)) // REPEATS]
-    specimen = made_for.tanned(state[:3], state[3])
+    specimen = skin.at(state)
 
     def light() -> None:
         walked(specimen, FINE, angle=ANGLE, rays=PRINTED_RAYS, threads=1, as_printed=True)
@@ -138,16 +138,16 @@ def printed_seconds(made_for: Skin, table: SkinTable, number: int) -> float:
     return taken.processor[0] / (PRINTED_RAYS * FINE.size)
 
 
-def report_peer(made_for: Skin) -> None:
+def report_peer(skin: Skin) -> None:
     """A table of the peer's size: 4704 states' colours, albedo against a converged solution."""
-    taken, table = spent(lambda: build(made_for, PEER, threads=CORES), 1)
+    taken, table = spent(lambda: build(skin, PEER, threads=CORES), 1)
     said(
         "4704 states' colours, 2 cores",
         f"{ranged(taken.clock)} s",
         "300 s or less",
         taken.clock[0] <= 300.0,
     )
-    errors = 100.0 * albedo_errors(made_for, table)
+    errors = 100.0 * albedo_errors(skin, table)
     median, most = np.median(errors), np.percentile(errors, 95.0)
     said(
         f"  albedo, {PEER_CHECKED} of them, relative error",
@@ -157,14 +157,14 @@ def report_peer(made_for: Skin) -> None:
     )
 
 
-def albedo_errors(made_for: Skin, table: SkinTable) -> np.ndarray:
+def albedo_errors(skin: Skin, table: SkinTable) -> np.ndarray:
     """Relative error (N, 3) of channels of the albedo at some knots."""
     states = table.axes.knot_states().reshape(-1, 4)
     albedo = table.planes["subsurface_colour"].reshape(-1, 3)
     weights = rec709_weights(FINE)
     errors = []
     for place in np.random.default_rng(1).choice(len(states), PEER_CHECKED, replace=False):
-        specimen = made_for.tanned(states[place, :3], states[place, 3])
+        specimen = skin.at(states[place])
         direct = weights @ solved(specimen, FINE, angle=ANGLE, nodes=FINE_NODES).subsurface
         errors.append(np.abs(albedo[place] / direct - 1.0))
     return np.array(errors)
@@ -208,10 +208,10 @@ def report_presets(skin: str) -> None:
 
 def main() -> None:
     """Measure and print."""
-    made_for = phototype(SKIN).skin
+    skin = phototype(SKIN).skin
     print(f"tables of skin {SKIN}; median (least to most) of {REPEATS} runs, or one")
-    report_spectra(made_for)
-    report_peer(made_for)
+    report_spectra(skin)
+    report_peer(skin)
     for skin in (SKIN, DARKEST):
         report_presets(skin)
 

@@ -12,9 +12,9 @@ from hylios.quadrature import skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.skin.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures, estimates_within, figures
+from hylios.spectra import estimates_within
 from hylios.table import SkinTable, described_dynamics
-from hylios.tissue import FIGURES, readings
+from hylios.tissue import SPECTRA, Model
 from lut_builder.axes import choose_axes, needed_knots
 from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
@@ -30,20 +30,19 @@ Results = Mapping[str, Mapping[str, np.ndarray]]
 
 
 def requested(
-    made_for: Skin,
+    skin: Skin,
     settings: Settings,
     *,
     seed: int = 1,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
     reached: np.ndarray | None = None,
 ) -> Request:
     """What has to be computed for a skin's table.
 
     Parameters
     ----------
-    known, chosen
-        Spectral figures and readings, the project's own by default.
+    model
+        Spectra and readings, the project's own by default.
     reached : (N, 4) array, optional
         Tanning states that a scene leads through, for a table of these alone.
 
@@ -52,7 +51,7 @@ def requested(
     InputError
         If the skin has a layer without melanin (`lut_builder.axes.untanned_state`).
     """
-    whole = axes = choose_axes(made_for, settings.knots)
+    whole = axes = choose_axes(skin, settings.knots)
     states, needed, within = axes.knot_states(), np.ones(axes.shape, bool), None
     if reached is not None:
         from lut_builder.scene_axes import farthest, laid_over  # scipy
@@ -60,11 +59,8 @@ def requested(
         axes, states = laid_over(whole, reached)
         needed = needed_knots(axes, reached, settings.interpolation)
         within = farthest(axes, states, reached, settings.interpolation)
-    # Plain dictionaries, for requests to travel to other processes.
-    own_figures = None if known is None else dict(known)
-    own_readings = None if chosen is None else dict(chosen)
     return Request(
-        made_for,
+        skin,
         settings,
         axes,
         states,
@@ -72,8 +68,7 @@ def requested(
         whole=int(np.prod(whole.shape)),
         within=within,
         seed=seed,
-        known=own_figures,
-        chosen=own_readings,
+        model=model or Model(),
     )
 
 
@@ -83,20 +78,19 @@ def units(request: Request) -> list[Unit]:
 
 
 def build(
-    made_for: Skin,
+    skin: Skin,
     settings: Settings,
     *,
     seed: int = 1,
     threads: int | None = None,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
     reached: np.ndarray | None = None,
 ) -> SkinTable:
     """Build a skin's table in this process; the same whatever the number of threads.
 
     Parameters as in `requested`, errors as there and in `lut_builder.request.computed`.
     """
-    request = requested(made_for, settings, seed=seed, known=known, chosen=chosen, reached=reached)
+    request = requested(skin, settings, seed=seed, model=model, reached=reached)
     runner = in_threads(threads or cpu_count() or 1)
     return assembled(request, run_units(units(request), None, "", runner))
 
@@ -111,7 +105,7 @@ def assembled(request: Request, results: Results) -> SkinTable:
         planes["state"] = _state_plane(request, request.within)
         nearest = _nearest_computed(request.needed)
         planes = {name: plane[nearest] for name, plane in planes.items()}
-    cut = sum(request.skin.overfull(state[:3], state[3]) for state in request.states)
+    cut = sum(request.skin.overfull(state) for state in request.states)
     return SkinTable(
         axes=request.axes,
         planes={name: plane.reshape(*request.axes.shape, -1) for name, plane in planes.items()},
@@ -202,27 +196,26 @@ def _profile_planes(
 
 def provenance(request: Request) -> dict:
     """What a table's header says of how it was asked to be made."""
-    made_for, settings = request.skin, request.settings
-    own = figures()
-    known, decided = request.known or own, readings(request.chosen)
+    skin, settings = request.skin, request.settings
+    model = request.model
     return {
         "software": f"skin-tan {hylios.__version__}",
-        "skin": _phototype(made_for),
-        "specimen": _described(made_for.specimen),
-        "specimen_parameters": asdict(made_for.specimen),
-        "untanned_state": UNTANNED[made_for.untanned],
-        "pigmentation": made_for.pigmentation,
-        "melanin_dynamics": described_dynamics(made_for.dynamics),
-        "mmd_sed": made_for.mmd,
-        "med_sed": made_for.med,
+        "skin": _phototype(skin),
+        "specimen": _described(skin.specimen),
+        "specimen_parameters": asdict(skin.specimen),
+        "untanned_state": UNTANNED[skin.untanned],
+        "pigmentation": skin.pigmentation,
+        "melanin_dynamics": described_dynamics(skin.dynamics),
+        "mmd_sed": skin.mmd,
+        "med_sed": skin.med,
         "solver": f"adding, {settings.nodes} directions; profiles by random walk on shared paths",
         "settings": {
             name: list(value) if isinstance(value, tuple) else value
             for name, value in asdict(settings).items()
         },
-        "readings": dict(decided),
+        "readings": dict(model.readings),
         "own_figures": {
-            name: known[name].source for name in FIGURES if known[name] is not own[name]
+            name: spectrum.source for name, spectrum in model.own_spectra.items() if name in SPECTRA
         },
         "bands_nm": list(settings.bands),
         "angle_deg": ANGLE,
@@ -231,7 +224,7 @@ def provenance(request: Request) -> dict:
         "states_for_any_sun": request.whole,
         "colour": "linear Rec.709, D65, CIE 1931 2 degree",
         "profile_width_unit": "mm",
-        "estimated_figures": estimates_within(known, FIGURES, wavelengths(settings)),
+        "estimated_figures": estimates_within(model.spectra, SPECTRA, wavelengths(settings)),
     }
 
 
@@ -243,9 +236,9 @@ def _absorptance(found: Mapping[str, np.ndarray]) -> dict:
     }
 
 
-def _phototype(made_for: Skin) -> str | None:
+def _phototype(skin: Skin) -> str | None:
     """Name of the Fitzpatrick type that a skin is, unless something in it was set otherwise."""
-    return next((name for name in PHOTOTYPES if phototype(name).skin == made_for), None)
+    return next((name for name in PHOTOTYPES if phototype(name).skin == skin), None)
 
 
 def _described(specimen: Specimen) -> str:

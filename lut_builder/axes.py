@@ -9,7 +9,7 @@ import numpy as np
 from hylios.errors import InputError
 from hylios.skin import Skin
 from hylios.table import StateAxes
-from hylios.tanning import Exposures, simulate
+from hylios.tanning import Exposures
 
 DAYS = 60
 MOST_EXPOSURES = 11
@@ -24,7 +24,7 @@ LEAST_SPAN = 1e-6
 knot, as all but the first in skin that makes no melanin in the sun."""
 
 
-def reachable_states(made_for: Skin, schedules: int, seed: int) -> np.ndarray:
+def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
     """States (N, 4) that random schedules of sunshine lead through, every six hours of 60 days.
 
     Each schedule has 1 to 11 exposures at random hours, each of 0.35 to 10.5 MMD.
@@ -35,18 +35,12 @@ def reachable_states(made_for: Skin, schedules: int, seed: int) -> np.ndarray:
     for schedule in doses:
         exposures = random.integers(1, MOST_EXPOSURES + 1)
         when = random.choice(hours, exposures, replace=False)
-        schedule[when] = made_for.mmd * random.uniform(LEAST_DOSE, MOST_DOSE, exposures)
-    history = simulate(
-        Exposures(np.arange(hours), doses),
-        made_for.dynamics,
-        mmd=made_for.mmd,
-        med=made_for.med,
-        hours=hours,
-    )
+        schedule[when] = skin.mmd * random.uniform(LEAST_DOSE, MOST_DOSE, exposures)
+    history = skin.history(Exposures(np.arange(hours), doses), hours)
     return history.states[:, ::6].reshape(-1, 4)
 
 
-def untanned_state(made_for: Skin) -> np.ndarray:
+def untanned_state(skin: Skin) -> np.ndarray:
     """The state (4,) without sun.
 
     Raises
@@ -54,15 +48,15 @@ def untanned_state(made_for: Skin) -> np.ndarray:
     InputError
         If the way the skin tans leaves a layer without melanin: no ratio to nothing is a state.
     """
-    if not np.all(made_for.untanned_melanin > 0.0):
+    if not np.all(skin.untanned_melanin > 0.0):
         raise InputError(
-            f"melanin without sun is {made_for.untanned_melanin.tolist()} of basale, spinosum, "
+            f"melanin without sun is {skin.untanned_melanin.tolist()} of basale, spinosum, "
             "granulosum; a table needs more than 0 in each."
         )
-    return np.append(made_for.untanned_melanin, 1.0)
+    return skin.untanned_state
 
 
-def choose_axes(made_for: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
+def choose_axes(skin: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
     """Principal axes of the reachable states with the given numbers of knots.
 
     Knots lie evenly from the smallest to the largest coordinate seen, moved so that the untanned
@@ -73,8 +67,8 @@ def choose_axes(made_for: Skin, knots: tuple[int, ...], seed: int = 0) -> StateA
     InputError
         As `untanned_state`.
     """
-    untanned = untanned_state(made_for)
-    states = reachable_states(made_for, 400, seed)
+    untanned = untanned_state(skin)
+    states = reachable_states(skin, 400, seed)
     _, _, directions = np.linalg.svd(np.log(states / untanned), full_matrices=False)
     basis = directions[: len(knots)].T
     basis = basis * np.sign(basis.sum(axis=0))

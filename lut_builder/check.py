@@ -1,6 +1,6 @@
 """Checking a table: states between its knots, computed directly."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,9 +13,9 @@ from hylios.lab.colour import difference, rec709_weights
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures, figures, replaced
+from hylios.spectra import published_spectra, with_own_spectrum
 from hylios.table import SkinTable, melanin_dynamics
-from hylios.tissue import stack
+from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.axes import reachable_states
 from lut_builder.request import ANGLE
@@ -108,18 +108,18 @@ def settings_of(table: SkinTable) -> Settings:
         raise InputError(f"the table does not say how it was built: {error}") from error
 
 
-def figures_of(table: SkinTable) -> Figures:
-    """The spectral figures that a table was built with; the user's own are read again.
+def model_of(table: SkinTable) -> Model:
+    """The spectra and readings that a table was built with; the user's own files are read again.
 
     Raises
     ------
     InputError
-        If one cannot be read.
+        If a file cannot be read or a reading does not exist.
     """
-    known = figures()
+    spectra = published_spectra()
     for name, path in table.provenance.get("own_figures", {}).items():
-        known = replaced(known, name, Path(path))
-    return known
+        spectra = with_own_spectrum(spectra, name, Path(path))
+    return Model(spectra, table.provenance.get("readings", {}))
 
 
 def check(
@@ -145,16 +145,16 @@ def check(
     Raises
     ------
     InputError
-        If the table's header does not say for what skin and how it was built, a figure of the
+        If the table's header does not say for what skin and how it was built, a spectrum of the
         user's own that it names cannot be read, or the table has no colour or too few states.
     """
-    made_for = skin_of(table)
+    skin = skin_of(table)
     random = np.random.default_rng(seed)
-    held = _between_knots(table, reachable_states(made_for, 100, seed))
+    held = _between_knots(table, reachable_states(skin, 100, seed))
     states = random.choice(held, count, replace=len(held) < count)
     seen = table.plane("total_colour", states)
-    specimens = [made_for.tanned(state[:3], state[3]) for state in states]
-    model = figures_of(table), table.provenance.get("readings")
+    specimens = [skin.at(state) for state in states]
+    model = model_of(table)
     told = progress or (lambda share: None)
     if not rays:
         return Check(states, difference(seen, _solved(specimens, model, told)))
@@ -166,20 +166,13 @@ def check(
     return Check(states, difference(seen, direct), np.array(noise))
 
 
-Model = tuple[Figures, Mapping[str, str] | None]
-"""Spectral figures and readings."""
-
-
 def _solved(specimens: list[Specimen], model: Model, told: Progress) -> np.ndarray:
     """Colours (N, 3) by the solver, wavelength by wavelength: so it is fastest."""
-    known, chosen = model
     total = np.empty((FINE.size, len(specimens)))
     # The matrices are small: threads of linear algebra would cost ten times what they bring.
     with threadpool_limits(1, "blas"):
         for row, wavelength in zip(total, FINE, strict=True):
-            stacks = [
-                stack(each, float(wavelength), known=known, chosen=chosen) for each in specimens
-            ]
+            stacks = [Stack.of(each, float(wavelength), model) for each in specimens]
             row[:] = solve(stacks, ANGLE).total
             told(len(specimens) / FINE.size)
     return (rec709_weights(FINE) @ total).T
@@ -194,7 +187,6 @@ def _walked(
     told: Progress,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Colours (N, 3) by the random walk, and their covariances (N, 3, 3)."""
-    known, chosen = model
     few = skin_quadrature(MOST)
     colours, spread = [], []
     for index, specimen in enumerate(specimens):
@@ -205,8 +197,7 @@ def _walked(
             rays=rays,
             seed=int(np.random.SeedSequence((seed, index)).generate_state(1)[0]),
             threads=threads,
-            known=known,
-            chosen=chosen,
+            model=model,
         )
         colours.append(few.weights @ found.total)
         spread.append((few.weights * found.standard_error**2) @ few.weights.T)

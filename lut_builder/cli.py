@@ -245,8 +245,8 @@ def _build(asked: argparse.Namespace) -> None:
     if asked.days is not None and asked.schedule is None:
         raise InputError(f"--days is {asked.days:g} without a --schedule; allowed is both.")
     settings = _settings(asked)
-    _, known, chosen = chosen_skin(asked)
-    made_for = chosen_tanning_skin(asked, asked.untanned)
+    _, model = chosen_skin(asked)
+    skin = chosen_tanning_skin(asked, asked.untanned)
 
     from lut_builder.assemble import assembled, requested, units
     from lut_builder.commands.resumable import resumable
@@ -258,10 +258,8 @@ def _build(asked: argparse.Namespace) -> None:
     reached = None
     if asked.schedule is not None:
         days = SCENE_DAYS if asked.days is None else asked.days
-        reached = reached_states(made_for, read_schedule(asked.schedule), days)
-    request = requested(
-        made_for, settings, seed=asked.seed, known=known, chosen=chosen, reached=reached
-    )
+        reached = reached_states(skin, read_schedule(asked.schedule), days)
+    request = requested(skin, settings, seed=asked.seed, model=model, reached=reached)
     wanted, whole = len(request.states), request.whole
     work = units(request)
     with resumable(asked, ".exr") as unfinished:

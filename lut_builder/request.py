@@ -4,8 +4,8 @@ Each is a function from arrays and descriptions to named arrays, with its random
 what it is: so pieces can be computed in any order, anywhere, and again.
 """
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,8 +15,8 @@ from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures
 from hylios.table import StateAxes
+from hylios.tissue import Model
 from lut_builder.settings import Settings
 
 ANGLE = 8.0
@@ -50,10 +50,8 @@ class Request:
         Of a table for one scene: how far its states lie at most from those that a lookup of
         `knot_states` gives for them, in the logarithm of one of the four numbers.
     seed : int
-    known : Figures or None
-        Other spectral figures than the project's.
-    chosen : mapping or None
-        Other readings of the thesis.
+    model : Model
+        Spectra and readings.
     """
 
     skin: Skin
@@ -64,8 +62,7 @@ class Request:
     whole: int
     within: float | None = None
     seed: int = 1
-    known: Figures | None = None
-    chosen: Mapping[str, str] | None = None
+    model: Model = field(default_factory=Model)
 
     @property
     def states(self) -> np.ndarray:
@@ -134,7 +131,7 @@ def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
 
 
 def _absorbed(request: Request) -> dict[str, np.ndarray]:
-    found = tabulated(request.skin.specimen, known=request.known, chosen=request.chosen)
+    found = tabulated(request.skin.specimen, model=request.model)
     return {"wavelengths": found.wavelengths, "values": found.values}
 
 
@@ -148,8 +145,7 @@ def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
         angle=ANGLE,
         seed=request.seed,
         threads=1,
-        known=request.known,
-        chosen=request.chosen,
+        model=request.model,
     )
     return {
         "light": found.light,
@@ -184,11 +180,10 @@ def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
         wavelengths(request.settings),
         angle=ANGLE,
         nodes=request.settings.nodes,
-        known=request.known,
-        chosen=request.chosen,
+        model=request.model,
     )
     return {"surface": found.surface, "subsurface": found.subsurface}
 
 
 def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:
-    return [request.skin.tanned(state[:3], state[3]) for state in states]
+    return [request.skin.at(state) for state in states]

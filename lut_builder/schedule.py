@@ -48,7 +48,7 @@ def read_schedule(path: Path) -> Exposures:
     return Exposures(*np.array(found).reshape(-1, len(COLUMNS)).T)
 
 
-def reached_states(made_for: Skin, exposures: Exposures, days: float) -> np.ndarray:
+def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
     """States (N, 4) of a skin anywhere on a body, from day 0 to a last one.
 
     Raises
@@ -65,9 +65,9 @@ def reached_states(made_for: Skin, exposures: Exposures, days: float) -> np.ndar
             shares * exposures.doses,
             None if thickening is None else shares * thickening,
         ),
-        made_for.dynamics,
+        skin.dynamics,
         times=np.append(np.arange(0.0, 24.0 * days, HOURS), 24.0 * days),
-        mmd=made_for.mmd,
-        med=made_for.med,
+        mmd=skin.mmd,
+        med=skin.med,
     )
     return states.reshape(-1, 4)

@@ -12,8 +12,8 @@ from examples.figures.drawing import COLOURS, sheet
 from examples.figures.light import Effort, Task
 from examples.figures.report import Row
 from hylios.lab.pictures import write_figure
-from hylios.spectra import Figure, figures
-from hylios.tissue import HEMOGLOBIN_WEIGHT
+from hylios.spectra import Spectrum, published_spectra
+from hylios.tissue.absorbers import HEMOGLOBIN_WEIGHT
 
 FIGURES = ("A.1",)
 
@@ -26,7 +26,7 @@ DNA_SAMPLE, UROCANIC_SAMPLE = 0.05, 15e-6
 
 @dataclass(frozen=True)
 class Panel:
-    """One of the six plots: what it shows, how figures become it, and where."""
+    """One of the six plots: what it shows, how spectra become it, and where."""
 
     title: str
     ylabel: str
@@ -36,7 +36,7 @@ class Panel:
 
 
 def same(values: np.ndarray) -> np.ndarray:
-    """The figure as it is."""
+    """The spectrum as it is."""
     return values
 
 
@@ -106,21 +106,23 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
         Row("A.1", f"{name}, {part.first:g} to {part.last:g} nm", "plotted", part.what, "none")
         for panel in PANELS
         for name in panel.shown
-        for part in figures()[name].estimates
+        for part in published_spectra()[name].estimates
         if part.first < panel.domain[1]
     ]
 
 
 def _panel(panel: Panel, axes: Axes) -> None:
     for colour, (name, change) in zip(COLOURS, panel.shown.items(), strict=False):
-        figure = figures()[name]
-        inside = (figure.wavelengths >= panel.domain[0]) & (figure.wavelengths <= panel.domain[1])
-        values = np.where(inside, change(figure.values), np.nan)
+        spectrum = published_spectra()[name]
+        inside = (spectrum.wavelengths >= panel.domain[0]) & (
+            spectrum.wavelengths <= panel.domain[1]
+        )
+        values = np.where(inside, change(spectrum.values), np.nan)
         if panel.logarithmic:
             values = np.where(values > 0.0, values, np.nan)
-        guessed = estimated(figure)
-        axes.plot(figure.wavelengths, np.where(guessed, np.nan, values), color=colour)
-        axes.plot(figure.wavelengths, np.where(guessed, values, np.nan), color=colour, ls="--")
+        guessed = estimated(spectrum)
+        axes.plot(spectrum.wavelengths, np.where(guessed, np.nan, values), color=colour)
+        axes.plot(spectrum.wavelengths, np.where(guessed, values, np.nan), color=colour, ls="--")
     names = [
         Line2D([], [], color=colour, label=name.replace("_", " "))
         for colour, name in zip(COLOURS, panel.shown, strict=False)
@@ -133,11 +135,11 @@ def _panel(panel: Panel, axes: Axes) -> None:
         axes.set_yscale("log")
 
 
-def estimated(figure: Figure) -> np.ndarray:
-    """Where a figure is an estimate, (N,) bool; the ends of measured parts are measured."""
-    inside = np.zeros(figure.wavelengths.size, bool)
-    for part in figure.estimates:
-        first = part.first if part.first == figure.wavelengths[0] else part.first + 1e-9
-        last = part.last if part.last == figure.wavelengths[-1] else part.last - 1e-9
-        inside |= (figure.wavelengths >= first) & (figure.wavelengths <= last)
+def estimated(spectrum: Spectrum) -> np.ndarray:
+    """Where a spectrum is an estimate, (N,) bool; the ends of measured parts are measured."""
+    inside = np.zeros(spectrum.wavelengths.size, bool)
+    for part in spectrum.estimates:
+        first = part.first if part.first == spectrum.wavelengths[0] else part.first + 1e-9
+        last = part.last if part.last == spectrum.wavelengths[-1] else part.last - 1e-9
+        inside |= (spectrum.wavelengths >= first) & (spectrum.wavelengths <= last)
     return inside

@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 from examples.figures.light import Task, Tick, exact
 from examples.figures.report import Row
 from hylios.skin.specimen import SPECIMENS, with_values
-from hylios.spectra import figures
-from hylios.tissue import Layer, Stack, stack
+from hylios.spectra import published_spectra
+from hylios.tissue import Layer, Stack
 
 ANGLE = 8.0
 WAVELENGTHS = np.arange(250.0, 401.0, 5.0)
@@ -135,13 +135,13 @@ def reflectance(absorbers: Absorbers) -> np.ndarray:
         },
         allow_unphysical=True,
     )
-    return exact([absorbing(stack(skin, each), each, absorbers) for each in WAVELENGTHS], ANGLE)
+    return exact([absorbing(Stack.of(skin, each), each, absorbers) for each in WAVELENGTHS], ANGLE)
 
 
 def absorbing(skin: Stack, wavelength: float, absorbers: Absorbers) -> Stack:
     """S3 without DNA and keratin, with those of `absorbers` added."""
-    dna = figures()["dna"].at(wavelength) * SKIN.skin_dna
-    keratin = figures()["keratin"].at(wavelength) * 0.01 * SKIN.corneum_keratin
+    dna = published_spectra()["dna"].at(wavelength) * SKIN.skin_dna
+    keratin = published_spectra()["keratin"].at(wavelength) * 0.01 * SKIN.corneum_keratin
     beyond = absorbers.beyond if wavelength > FIGURE_ENDS else 0.0
     epidermis, dermis = absorbers.epidermis * dna + beyond, absorbers.dermis * dna
     added = (absorbers.keratin * keratin, *[epidermis] * 3, *[dermis] * 2)

@@ -22,7 +22,7 @@ from examples.figures.report import Row
 from hylios.lab.pictures import write_figure
 from hylios.lab.predecessors.biospec import goniometry
 from hylios.skin.specimen import SPECIMENS
-from hylios.tissue import Stack, stack
+from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted
 from hylios.transport.simulate import Rays
 from hylios.transport.survival import with_survival
@@ -81,8 +81,8 @@ SHOWN = tuple(
 
 def prepared(sample: Sample) -> Stack:
     """The sample as layers in air, with whatever lies behind."""
-    chosen = {"melanosome_scattering": sample.scattering}
-    whole = with_survival(stack(SPECIMENS["S2"], WAVELENGTH, chosen=chosen))
+    model = Model(readings={"melanosome_scattering": sample.scattering})
+    whole = with_survival(Stack.of(SPECIMENS["S2"], WAVELENGTH, model))
     layers = tuple(
         replace(layer, encounter=sample.times * layer.encounter)
         for layer in whole.layers[sample.layers]

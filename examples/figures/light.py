@@ -8,7 +8,7 @@ import numpy as np
 from examples.figures.measured_people import People
 from hylios.adding import solve
 from hylios.skin.specimen import Specimen
-from hylios.tissue import Stack, stack
+from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum
 from hylios.transport.survival import with_survival
 
@@ -94,15 +94,15 @@ def noise_free(
     specimen: Specimen,
     wavelengths: Iterable[float],
     angle: float,
-    chosen: Mapping[str, str] | None = None,
+    readings: Mapping[str, str] | None = None,
 ) -> Task:
-    """The task of a curve without noise, with other readings of the thesis where chosen."""
-    asked = np.asarray(wavelengths, dtype=float)
+    """The task of a curve without noise, with other readings of the thesis where given."""
+    asked, model = np.asarray(wavelengths, dtype=float), Model(readings=readings or {})
 
     def work(tick: Tick) -> Curve:
         found = []
         for part in np.split(asked, range(BATCH, asked.size, BATCH)):
-            found.append(exact([stack(specimen, each, chosen=chosen) for each in part], angle))
+            found.append(exact([Stack.of(specimen, each, model) for each in part], angle))
             tick(part.size)
         return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
 

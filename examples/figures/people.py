@@ -21,7 +21,8 @@ from examples.figures.report import Row
 from hylios.lab.fit import USUAL, Fit, fit_spectrum
 from hylios.lab.pictures import write_figure
 from hylios.skin.specimen import SPECIMENS
-from hylios.spectra import Figures, figures
+from hylios.spectra import Spectra, published_spectra
+from hylios.tissue import Model
 
 FIGURES = ("people",)
 
@@ -78,18 +79,17 @@ def fitted(reflectance: np.ndarray, region: str, variant: Variant) -> Fit:
         reflectance,
         free=variant.free,
         angle=ANGLE,
-        known=with_lipids(variant.lipids),
-        chosen=variant.reading,
+        model=Model(with_lipids(variant.lipids), variant.reading),
     )
 
 
-def with_lipids(factor: float) -> Figures:
-    """The spectral figures, with lipids changed where they are an estimate."""
-    known = figures()
-    lipids = known["lipids"]
+def with_lipids(factor: float) -> Spectra:
+    """The published spectra, with lipids changed where they are an estimate."""
+    spectra = published_spectra()
+    lipids = spectra["lipids"]
     beyond = lipids.wavelengths > LIPIDS_FROM
     scaled = replace(lipids, values=np.where(beyond, factor, 1.0) * lipids.values)
-    return known if factor == 1.0 else MappingProxyType({**known, "lipids": scaled})
+    return spectra if factor == 1.0 else MappingProxyType({**spectra, "lipids": scaled})
 
 
 def tasks(effort: Effort) -> dict[str, Task]:

@@ -50,13 +50,13 @@ UV_EXPOSURE = 1.7
 """How much brighter than the visible pictures those at 365 nm are shown."""
 
 
-def uv_table(table: SkinTable, made_for: Skin, effort: Effort) -> SkinTable:
+def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
     """The table with reflectance and profile width at 365 nm in place of colour, as a grey."""
     planes = {name: table.planes[name].copy() for name in ("subsurface_colour", "profile_width")}
     for knot in np.ndindex(*table.axes.shape):
         state = table.axes.knot_states()[knot]
         found = walked(
-            made_for.tanned(state[:3], state[3]),
+            skin.at(state),
             np.array([UV_NM]),
             angle=8.0,
             rays=UV_RAYS,
@@ -158,9 +158,9 @@ def _colour_tables(wanted: Sequence[Shot]) -> list[str]:
     return sorted({"low" if shot.table == UV else shot.table for shot in wanted})
 
 
-def table_of(made_for: Skin, effort: Effort, tick: Tick) -> SkinTable:
+def table_of(skin: Skin, effort: Effort, tick: Tick) -> SkinTable:
     """The table of a skin."""
-    table = build(made_for, SETTINGS, seed=effort.seed, threads=effort.threads)
+    table = build(skin, SETTINGS, seed=effort.seed, threads=effort.threads)
     tick(TABLE_AS_LONG)
     return table
 
@@ -184,31 +184,31 @@ def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], ti
         raise InputError(f"Blender could not render the figures (status {blender.returncode}).")
 
 
-def result(shot: Shot, made_for: Skin, table: SkinTable, folder: Path) -> Result:
+def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
     """What came of a shot, beside what the model says."""
-    states = tanning_states(shot, made_for)
+    states = tanning_states(shot, skin)
     with np.load(folder / f"{shot.name}.npz") as found:
         return Result(
             shot=shot,
             picture=found["picture"],
             readings=found["readings"],
             predicted=table.plane("subsurface_colour", states),
-            exact=None if shot.table == UV else np.array([colour(made_for, s) for s in states]),
+            exact=None if shot.table == UV else np.array([colour(skin, s) for s in states]),
             shine=found["shine"],
             sun_distance=found["sun_distance"],
             subject=str(found["subject"]),
         )
 
 
-def tanning_states(shot: Shot, made_for: Skin) -> np.ndarray:
+def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:
     """States (parts + 1, 4) on the day of a shot: of each schedule, and without sun."""
     every = (*shot.schedules, ())
-    return np.array([history(made_for, each, shot.day).states[-1] for each in every])
+    return np.array([history(skin, each, shot.day).states[-1] for each in every])
 
 
-def colour(made_for: Skin, state: np.ndarray) -> np.ndarray:
+def colour(skin: Skin, state: np.ndarray) -> np.ndarray:
     """Colour (3,) of the light out of skin in a tanning state (4,), without noise."""
-    return colours(made_for, state[None], count=MOST).subsurface[0]
+    return colours(skin, state[None], count=MOST).subsurface[0]
 
 
 # ---------------------------------------------------------------- figures
@@ -412,9 +412,9 @@ def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
 
 def _filling() -> report.Row:
     """What so much melanin does to a layer, over the days of the figure."""
-    made_for = shots.skins()["strong"]
-    over = history(made_for, shots.BEACH, shots.LAST_DAY)
-    cut = any(made_for.overfull(state[:3], state[3]) for state in over.states)
+    skin = shots.skins()["strong"]
+    over = history(skin, shots.BEACH, shots.LAST_DAY)
+    cut = any(skin.overfull(state) for state in over.states)
     return report.Row(
         "6.27",
         "most melanin, as a multiple of the untanned skin's",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from examples.figures import tans
 from examples.figures.tans import MILLER_SKIN, Schedule
-from hylios.skin import Skin, skin
+from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS, Specimen
 
 SCHEDULES = tuple(tuple(tans.SCHEDULES[name]) for name in ("19 SED", "29 SED", "42 SED"))
@@ -31,14 +31,14 @@ def skins() -> dict[str, Skin]:
         "low": MILLER_SKIN,
         "intermediate": _less_sensitive(tans.between(), "intermediate"),
         "high": _less_sensitive(s4, "high"),
-        "strong": skin(s3, "low", MMD, MED, tanning=STRONG),
-        "beach": skin(s3, "intermediate", MMD, MED),
+        "strong": Skin.of(s3, "low", MMD, MED, tanning=STRONG),
+        "beach": Skin.of(s3, "intermediate", MMD, MED),
     }
 
 
 def _less_sensitive(specimen: Specimen, pigmentation: str) -> Skin:
     factor = SENSITIVITY[pigmentation]
-    return skin(specimen, pigmentation, factor * MMD, factor * MED)
+    return Skin.of(specimen, pigmentation, factor * MMD, factor * MED)
 
 
 def scaled(schedule: Schedule, factor: float) -> Schedule:

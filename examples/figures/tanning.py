@@ -87,7 +87,7 @@ def tan(skin: Skin, schedule: Schedule, days: np.ndarray, tick: Tick) -> Tan:
     states = history(skin, schedule, days[-1])
     lightness = np.empty(days.size)
     for place, hour in enumerate(np.round(24 * days).astype(int)):
-        lightness[place] = lab(colour(skin, states.melanin[hour], states.thickness[hour]))[0]
+        lightness[place] = lab(colour(skin, states.states[hour]))[0]
         tick(COLOUR_WAVELENGTHS)
     return Tan(schedule, states, days, lightness)
 

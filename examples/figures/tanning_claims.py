@@ -116,10 +116,10 @@ def gain(skin: Skin, doses: Sequence[float], tick: Tick) -> Gain:
     """What each of some single doses gives a skin at its peak."""
     states = single_doses(skin, doses, PEAK_DAYS)
     peaks = states.total.argmax(axis=-1)
-    before = colour(skin, states.melanin[0, 0], 1.0)
+    before = colour(skin, skin.untanned_state)
     after = np.empty((len(doses), 3))
     for number, hour in enumerate(peaks):
-        after[number] = colour(skin, states.melanin[number, hour], states.thickness[number, hour])
+        after[number] = colour(skin, states.states[number, hour])
         tick(COLOUR_WAVELENGTHS)
     relative = states.total.max(axis=-1) - 1.0
     content = relative * skin.specimen.pigmentation
@@ -137,12 +137,10 @@ def first_visible_dose(skin: Skin) -> float:
     """The least dose of `TRIED` whose tan is seen at its peak, in SED; response grows with dose."""
     states = single_doses(skin, TRIED, PEAK_DAYS)
     peaks = states.total.argmax(axis=-1)
-    before = lab(colour(skin, states.melanin[0, 0], 1.0))[0]
+    before = lab(colour(skin, skin.untanned_state))[0]
 
     def darker(number: int) -> float:
-        hour = peaks[number]
-        state = states.melanin[number, hour], states.thickness[number, hour]
-        return float(before - lab(colour(skin, *state))[0])
+        return float(before - lab(colour(skin, states.states[number, peaks[number]]))[0])
 
     found = bisect_left(range(TRIED.size), JUST_SEEN, key=darker)
     return float(TRIED[found]) if found < TRIED.size else np.inf

@@ -11,9 +11,9 @@ import numpy as np
 
 from hylios.adding import spectrum
 from hylios.quadrature import skin_quadrature
-from hylios.skin import Skin, skin
+from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS, Specimen, parameters
-from hylios.tanning import Exposures, TanningHistory, simulate
+from hylios.tanning import Exposures, TanningHistory
 
 Schedule = Sequence[tuple[float, float]]
 """Doses as (day, SED)."""
@@ -61,13 +61,13 @@ def between() -> Specimen:
     return replace(light, name="between S3 and S4", **mean)
 
 
-MILLER_SKIN = skin(SPECIMENS["S3"], "low", mmd=2.89, med=1.7)
+MILLER_SKIN = Skin.of(SPECIMENS["S3"], "low", mmd=2.89, med=1.7)
 """Minimal doses as section 6.2.2 prints them. ASSUMED: S3 stands for the low level."""
 
 SKINS = {
-    "low": skin(SPECIMENS["S3"], "low"),
-    "intermediate": skin(between(), "intermediate"),
-    "high": skin(SPECIMENS["S4"], "high"),
+    "low": Skin.of(SPECIMENS["S3"], "low"),
+    "intermediate": Skin.of(between(), "intermediate"),
+    "high": Skin.of(SPECIMENS["S4"], "high"),
 }
 """S3, S4 and one between, for the intermediate set. ASSUMED: the thesis names no such specimen."""
 
@@ -75,31 +75,21 @@ COLOUR_WAVELENGTHS = 8
 """At which the light model is asked for a colour: within .03 in L* of a spectrum every 10 nm."""
 
 
-def history(made_for: Skin, schedule: Schedule, days: float) -> TanningHistory:
+def history(skin: Skin, schedule: Schedule, days: float) -> TanningHistory:
     """The skin's state after a schedule, every hour up to a day."""
     hours = np.array([round(24 * day) for day, _ in schedule])
-    return _simulated(made_for, Exposures(hours, np.array([dose for _, dose in schedule])), days)
+    exposures = Exposures(hours, np.array([dose for _, dose in schedule]))
+    return skin.history(exposures, round(24 * days))
 
 
-def single_doses(made_for: Skin, doses: Sequence[float], days: float) -> TanningHistory:
+def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHistory:
     """States after one dose on day 0, for each of some doses in SED; shapes (D, T, ...)."""
-    return _simulated(
-        made_for, Exposures(np.array([0]), np.array(doses, dtype=float)[:, None]), days
-    )
+    exposures = Exposures(np.array([0]), np.array(doses, dtype=float)[:, None])
+    return skin.history(exposures, round(24 * days))
 
 
-def _simulated(made_for: Skin, exposures: Exposures, days: float) -> TanningHistory:
-    return simulate(
-        exposures,
-        made_for.dynamics,
-        mmd=made_for.mmd,
-        med=made_for.med,
-        hours=round(24 * days),
-    )
-
-
-def colour(made_for: Skin, melanin: np.ndarray, thickness: float) -> np.ndarray:
-    """Linear Rec.709 (3,) under D65 of the skin in a tanning state, without noise, at 8 degrees."""
+def colour(skin: Skin, state: np.ndarray) -> np.ndarray:
+    """Linear Rec.709 (3,) under D65 of the skin in a tanning state (4,), at 8 degrees."""
     quadrature = skin_quadrature(COLOUR_WAVELENGTHS)
-    found = spectrum(made_for.tanned(melanin, thickness), quadrature.wavelengths)
+    found = spectrum(skin.at(state), quadrature.wavelengths)
     return quadrature.weights @ found.total

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from hylios.skin import skin
-from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, tanned
-from hylios.tanning import Exposures, simulate
+from hylios.skin import Skin
+from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen
+from hylios.tanning import Exposures
 
 DOSE = 30.0  # SED, on day 0
 DAYS = (0, 2, 10, 30)
@@ -15,16 +15,9 @@ DAYS = (0, 2, 10, 30)
 
 def tan(specimen: Specimen) -> list[Specimen]:
     """A specimen on `DAYS` of a tan, by its usual way of tanning."""
-    made_for = skin(specimen)
-    history = simulate(
-        Exposures([0], [DOSE]),
-        made_for.dynamics,
-        mmd=made_for.mmd,
-        med=made_for.med,
-        hours=24 * max(DAYS),
-    )
-    states = history.states[24 * np.array(DAYS)]
-    return [tanned(specimen, state[:3], state[3]) for state in states]
+    skin = Skin.of(specimen)
+    states = skin.states(Exposures([0], [DOSE]), 24.0 * np.array(DAYS))
+    return [skin.at(state) for state in states]
 
 
 def measured() -> tuple[list[Specimen], list[Specimen]]:

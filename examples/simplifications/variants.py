@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from hylios.skin.specimen import EPIDERMIS, Specimen
-from hylios.tissue import Stack, stack
+from hylios.tissue import Stack
 
 Variant = Callable[[Specimen, float], Stack]
 """Optical layers of a specimen at a wavelength in nm."""
@@ -23,7 +23,7 @@ NO_RARE_PIGMENTS = {
 
 def whole(specimen: Specimen, wavelength: float) -> Stack:
     """The model as it is."""
-    return stack(specimen, wavelength)
+    return Stack.of(specimen, wavelength)
 
 
 def plain_absorber(specimen: Specimen, wavelength: float) -> Stack:
@@ -34,12 +34,12 @@ def plain_absorber(specimen: Specimen, wavelength: float) -> Stack:
         colloidal = getattr(specimen, f"{layer}_colloidal_melanin")
         contents[f"{layer}_melanosomes"] = 0.0
         contents[f"{layer}_colloidal_melanin"] = min(inside + colloidal, 100.0)
-    return stack(replace(specimen, **contents), wavelength)
+    return Stack.of(replace(specimen, **contents), wavelength)
 
 
 def no_rayleigh(specimen: Specimen, wavelength: float) -> Stack:
     """The papillary dermis does not scatter."""
-    return without_rayleigh(stack(specimen, wavelength))
+    return without_rayleigh(Stack.of(specimen, wavelength))
 
 
 def without_rayleigh(layers: Stack) -> Stack:
@@ -55,12 +55,12 @@ def spread_evenly(specimen: Specimen, wavelength: float) -> Stack:
         held = [getattr(specimen, f"{layer}_{form}") for layer in EPIDERMIS]
         mean = sum(a * b for a, b in zip(held, thickness, strict=True)) / sum(thickness)
         contents |= {f"{layer}_{form}": mean for layer in EPIDERMIS}
-    return stack(replace(specimen, **contents), wavelength)
+    return Stack.of(replace(specimen, **contents), wavelength)
 
 
 def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
     """One epidermal layer with the mean contents, its melanosomes of the stratum basale's size."""
-    layers = stack(specimen, wavelength)
+    layers = Stack.of(specimen, wavelength)
     *upper, basale = parts = layers.layers[EPIDERMAL]
     thickness = sum(each.thickness for each in parts)
 
@@ -81,7 +81,7 @@ def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
 
 def no_rare_pigments(specimen: Specimen, wavelength: float) -> Stack:
     """Neither dysfunctional haemoglobins nor carotene."""
-    return stack(replace(specimen, **NO_RARE_PIGMENTS), wavelength)
+    return Stack.of(replace(specimen, **NO_RARE_PIGMENTS), wavelength)
 
 
 def all_of_it(specimen: Specimen, wavelength: float) -> Stack:

@@ -1,6 +1,6 @@
 """Colours of a skin in its tanning states, without random numbers."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,8 @@ from hylios.adding.spectrum import spectra
 from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
-from hylios.spectra import Figures, figures, require_wavelengths
+from hylios.spectra import require_wavelengths
+from hylios.tissue import Model
 
 TOGETHER = 16
 """States solved at once: after each so many progress is told."""
@@ -35,15 +36,14 @@ class StateColours:
 
 
 def colours(
-    made_for: Skin,
+    skin: Skin,
     states: np.ndarray,
     *,
     count: int = 8,
     bands: Sequence[float] = (),
     angle: float = 8.0,
     nodes: int = NODES,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
     progress: Callable[[int], object] | None = None,
 ) -> StateColours:
     """Colours of tanning states by `hylios.adding.solve` at a few wavelengths.
@@ -59,8 +59,8 @@ def colours(
         Other wavelengths in nm, 250 to 2500.
     angle, nodes
         As in `solve`; one angle.
-    known, chosen
-        As in `hylios.tissue.stack`.
+    model
+        As in `hylios.tissue.Stack.of`.
     progress : callable, optional
         Told, as each piece of work ends, how many states it had.
 
@@ -73,17 +73,14 @@ def colours(
     states = np.asarray(states, dtype=float)
     if states.ndim != 2 or states.shape[1] != 4:
         raise InputError(f"tanning states have shape {states.shape}; expected (N, 4).")
-    known = known or figures()
     colour = skin_quadrature(count)
-    asked = list(require_wavelengths(bands, known)) if len(bands) else []
+    asked = list(require_wavelengths(bands, (model or Model()).spectra)) if len(bands) else []
     wavelengths = [*colour.wavelengths, *asked]
     pieces = []
     for first in range(0, len(states), TOGETHER):
         some = states[first : first + TOGETHER]
-        tanned = [made_for.tanned(state[:3], state[3]) for state in some]
-        pieces.append(
-            spectra(tanned, wavelengths, angle=angle, nodes=nodes, known=known, chosen=chosen)
-        )
+        tanned = [skin.at(state) for state in some]
+        pieces.append(spectra(tanned, wavelengths, angle=angle, nodes=nodes, model=model))
         if progress:
             progress(len(some))
     empty = np.empty((0, len(wavelengths)))

@@ -1,14 +1,14 @@
 """The spectrum of a specimen without random numbers."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from hylios.adding.solver import NODES, Reflectance, solve
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures, figures, require_wavelengths
-from hylios.tissue import stack
+from hylios.spectra import require_wavelengths
+from hylios.tissue import Model, Stack
 
 
 @dataclass(frozen=True)
@@ -30,15 +30,14 @@ def spectra(
     *,
     angle: float = 8.0,
     nodes: int = NODES,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> Reflectance:
     """Reflectance of S specimens at W wavelengths in nm, solved together; its arrays are (S, W).
 
     Parameters and errors as in `spectrum`, for one angle.
     """
     asked = [float(each) for each in wavelengths]
-    stacks = [stack(each, nm, known=known, chosen=chosen) for each in specimens for nm in asked]
+    stacks = [Stack.of(each, nm, model) for each in specimens for nm in asked]
     found = solve(stacks, float(angle), nodes)
     shape = len(specimens), len(asked)
     shares = found.surface, found.subsurface, found.transmittance
@@ -51,8 +50,7 @@ def spectrum(
     *,
     angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> Spectrum:
     """A specimen's spectrum, as `hylios.transport.simulate.spectrum` without its noise.
 
@@ -62,8 +60,8 @@ def spectrum(
         nm, 250 to 2500.
     angle, nodes
         As in `solve`.
-    known, chosen
-        As in `hylios.tissue.stack`.
+    model
+        As in `hylios.tissue.Stack.of`.
 
     Raises
     ------
@@ -71,7 +69,7 @@ def spectrum(
         If a wavelength, the angle or the number of nodes is out of range, or the melanosomes'
         shape or refractive index lies outside the table of survival.
     """
-    asked = require_wavelengths(wavelengths, known or figures())
-    stacks = [stack(specimen, each, known=known, chosen=chosen) for each in asked]
+    asked = require_wavelengths(wavelengths, (model or Model()).spectra)
+    stacks = [Stack.of(specimen, each, model) for each in asked]
     found = solve(stacks, angle, nodes)
     return Spectrum(found.surface, found.subsurface, found.transmittance, asked)

@@ -42,7 +42,7 @@ def run(asked: argparse.Namespace) -> None:
     from hylios.transport.angular import brdf  # numba: only when light is asked for
 
     require_work(asked)
-    specimen, known, chosen = chosen_skin(asked)
+    specimen, model = chosen_skin(asked)
     result = brdf(
         specimen,
         asked.wavelength,
@@ -52,10 +52,9 @@ def run(asked: argparse.Namespace) -> None:
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,
-        known=known,
-        chosen=chosen,
+        model=model,
     )
-    note_estimates(known, np.array([asked.wavelength]))
+    note_estimates(model, np.array([asked.wavelength]))
     polar, azimuth = np.meshgrid(
         _middles(result.polar_edges), _middles(result.azimuth_edges), indexing="ij"
     )

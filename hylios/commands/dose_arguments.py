@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
@@ -21,7 +20,7 @@ from hylios.errors import InputError, require_range
 from hylios.readers.spectrum import read_irradiance, read_transmittance
 from hylios.readers.text import name_of
 from hylios.skin import Skin
-from hylios.spectra import Figures
+from hylios.spectra import Spectra
 from hylios.sun.action_spectra import FIRST_NM, LAST_NM, MELANOGENESIS, Absorptance
 from hylios.sun.doses import (
     Doses,
@@ -45,7 +44,7 @@ from hylios.tanning import (
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
 )
-from hylios.tissue import FIGURES
+from hylios.tissue import SPECTRA, Model
 
 USUAL_SKY = ClearSky()
 SKY = {
@@ -69,8 +68,7 @@ class Chosen:
     """What the commands need of a skin that tans."""
 
     skin: Skin
-    known: Figures
-    readings: Mapping[str, str]
+    model: Model
 
 
 def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,7 +78,7 @@ def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen(asked: argparse.Namespace) -> Chosen:
-    """The skin that the arguments ask for, and the spectral figures and readings.
+    """The skin that the arguments ask for, and the model of light.
 
     Where nothing is said of the specimen, minimal doses are those typical of the tanning set.
 
@@ -89,14 +87,14 @@ def chosen(asked: argparse.Namespace) -> Chosen:
     InputError
         If one of them cannot be used.
     """
-    _, known, decided = chosen_skin(asked)
+    _, model = chosen_skin(asked)
     skin = chosen_tanning_skin(asked)
     if asked.skin is None and asked.specimen is None and not asked.set:
         typical = TYPICAL_PIGMENTATION[skin.pigmentation]
         mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
         med = minimal_erythema_dose(typical) if asked.med is None else asked.med
         skin = replace(skin, mmd=mmd, med=med)
-    return Chosen(skin, known, decided)
+    return Chosen(skin, model)
 
 
 def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
@@ -135,7 +133,7 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
-    """The doses that the arguments ask for; says on standard error which figures are estimates.
+    """The doses that the arguments ask for; says on standard error which spectra are estimates.
 
     Raises
     ------
@@ -149,16 +147,17 @@ def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
     if asked.sun or asked.spectrum:
         from hylios.adding.absorptance import tabulated  # the light model: only for a spectrum
 
-        absorptance = tabulated(of.skin.specimen, known=of.known, chosen=of.readings)
+        absorptance = tabulated(of.skin.specimen, model=of.model)
         parts += [
-            of_spectrum(*_spectrum(text), absorptance, over, of.known) for text in asked.spectrum
+            of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra)
+            for text in asked.spectrum
         ]
-        parts += _of_sun(asked, absorptance, over, of.known)
+        parts += _of_sun(asked, absorptance, over, of.model.spectra)
     found = joined(parts)
     found.exposures()  # whatever cannot be used is refused before anything is said
     if asked.sun or asked.spectrum:
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
-        note_estimates(of.known, light, (*FIGURES, MELANOGENESIS))
+        note_estimates(of.model, light, (*SPECTRA, MELANOGENESIS))
     return found
 
 
@@ -175,7 +174,7 @@ def _require_place(asked: argparse.Namespace) -> None:
 
 
 def _of_sun(
-    asked: argparse.Namespace, absorptance: Absorptance, over: Protection, known: Figures
+    asked: argparse.Namespace, absorptance: Absorptance, over: Protection, spectra: Spectra
 ) -> list[Doses]:
     """The doses of each `--sun`."""
     suns = [_sun(text) for text in asked.sun]
@@ -192,7 +191,7 @@ def _of_sun(
             utc_offset=asked.utc_offset or 0.0,
             sky=sky,
             protection=over,
-            known=known,
+            spectra=spectra,
         )
         for each in suns
     ]

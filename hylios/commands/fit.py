@@ -49,12 +49,11 @@ def run(asked: argparse.Namespace) -> None:
     """Fit and print."""
     from hylios.lab.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
 
-    start, known, chosen = chosen_skin(asked)
+    start, model = chosen_skin(asked)
     light = {
         "free": USUAL if asked.free is None else tuple(asked.free.split(",")),
         "angle": asked.angle,
-        "known": known,
-        "chosen": chosen,
+        "model": model,
     }
     if asked.srgb is not None:
         wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
@@ -68,7 +67,7 @@ def run(asked: argparse.Namespace) -> None:
         found = fit_spectrum(start, wavelengths, reflectance, **light)
         target = f"{measured.name}, {asked.column}, at {wavelengths.size} wavelengths"
         error = f"root mean square error {found.rmse:.4f}"
-    note_estimates(known, wavelengths)
+    note_estimates(model, wavelengths)
     for line in (f"Fitted to {target}: {error}.", *found.remarks()):
         print(f"# {line}")
     print(specimen_toml(replace(found.specimen, name=f"{start.name} fitted")), end="")

@@ -45,7 +45,7 @@ def run(asked: argparse.Namespace) -> None:
     from hylios.transport.radial import profile  # numba: only when light is asked for
 
     require_work(asked)
-    specimen, known, chosen = chosen_skin(asked)
+    specimen, model = chosen_skin(asked)
     result = profile(
         specimen,
         asked.wavelength,
@@ -56,11 +56,10 @@ def run(asked: argparse.Namespace) -> None:
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,
-        known=known,
-        chosen=chosen,
+        model=model,
     )
     width, error = result.burley_width, result.burley_width_error
-    note_estimates(known, np.array([asked.wavelength]))
+    note_estimates(model, np.array([asked.wavelength]))
     if asked.fit:
         row = {
             "wavelength_nm": asked.wavelength,

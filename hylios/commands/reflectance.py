@@ -34,7 +34,7 @@ def run(asked: argparse.Namespace) -> None:
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
     require_work(asked)
-    specimen, known, chosen = chosen_skin(asked)
+    specimen, model = chosen_skin(asked)
     result = spectrum(
         specimen,
         wavelength_range(asked.wavelengths),
@@ -42,11 +42,10 @@ def run(asked: argparse.Namespace) -> None:
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,
-        known=known,
-        chosen=chosen,
+        model=model,
         as_printed=asked.as_printed,
     )
-    note_estimates(known, result.wavelengths)
+    note_estimates(model, result.wavelengths)
     print_table(
         {
             "wavelength_nm": result.wavelengths,

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError, require_whole
-from hylios.skin import Skin, skin
+from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.specimen import Specimen, parameters, with_values
 from hylios.skin.specimen_file import read_specimen
-from hylios.spectra import Figures, estimates_within, figures, replaced
+from hylios.spectra import estimates_within, published_spectra, with_own_spectrum
 from hylios.tanning import PIGMENTATIONS
-from hylios.tissue import FIGURES, readings
+from hylios.tissue import SPECTRA, Model
 
 MOST_WAVELENGTHS = 10_000
 USUAL_SPECIMEN = "S3"
@@ -82,9 +82,9 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
     )
 
 
-def note_estimates(known: Figures, wavelengths: np.ndarray, names: Sequence[str] = FIGURES) -> None:
-    """Say on standard error which spectral figures are estimates at some wavelength in nm."""
-    for line in estimates_within(known, names, wavelengths):
+def note_estimates(model: Model, wavelengths: np.ndarray, names: Sequence[str] = SPECTRA) -> None:
+    """Say on standard error which spectra are estimates at some wavelength in nm."""
+    for line in estimates_within(model.spectra, names, wavelengths):
         print(f"note: {line}", file=sys.stderr)
 
 
@@ -93,9 +93,17 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
     add_specimen_arguments(parser, "--specimen")
     for option, metavar, help_text in (
         ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
-        ("--figure", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
+        ("--own-spectrum", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
+        ("--figure", "NAME=FILE", argparse.SUPPRESS),  # what --own-spectrum was called
     ):
-        parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+        parser.add_argument(
+            option,
+            action="append",
+            default=[],
+            dest="own_spectrum" if option == "--figure" else None,
+            metavar=metavar,
+            help=help_text,
+        )
 
 
 def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
@@ -186,22 +194,22 @@ def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state
     if specimen.name in PHOTOTYPES and pigmentation is None:
         usual = phototype(specimen.name)
         pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
-    return skin(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
+    return Skin.of(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
 
 
-def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Figures, Mapping[str, str]]:
-    """The specimen, spectral figures and readings that the arguments ask for.
+def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Model]:
+    """The specimen that the arguments ask for, and the model with their spectra and readings.
 
     Raises
     ------
     InputError
         If one of them cannot be used.
     """
-    known = figures()
-    for name, path in named_values(asked.figure, "a figure").items():
-        known = replaced(known, name, Path(path))
-    chosen = readings(named_values(asked.reading, "a reading"))
-    return chosen_specimen(asked), known, chosen
+    spectra = published_spectra()
+    for name, path in named_values(asked.own_spectrum, "a spectrum of your own").items():
+        spectra = with_own_spectrum(spectra, name, Path(path))
+    readings = named_values(asked.reading, "a reading")
+    return chosen_specimen(asked), Model(spectra, readings)
 
 
 def wavelength_range(text: str) -> np.ndarray:

@@ -45,7 +45,7 @@ def run(asked: argparse.Namespace) -> None:
     """Read or simulate, and write."""
     require_target(asked.output, (".png",), asked.force)
     size = require_whole("size", asked.size, 1, 4096)
-    if asked.files and (asked.specimen or asked.set or asked.reading or asked.figure):
+    if asked.files and (asked.specimen or asked.set or asked.reading or asked.own_spectrum):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
     spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
 
@@ -68,7 +68,7 @@ def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
     require_work(asked)
-    specimen, known, chosen = chosen_skin(asked)
+    specimen, model = chosen_skin(asked)
     first, last = BANDS[asked.band]
     step = require_range("step", asked.step, 1.0, last - first, "nm")
     result = spectrum(
@@ -78,8 +78,7 @@ def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,
-        known=known,
-        chosen=chosen,
+        model=model,
     )
-    note_estimates(known, result.wavelengths)
+    note_estimates(model, result.wavelengths)
     return NamedSpectrum(specimen.name, result.wavelengths, result.total, result.standard_error)

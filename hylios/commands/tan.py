@@ -9,7 +9,6 @@ from hylios.commands.dose_arguments import (
     chosen_doses,
 )
 from hylios.commands.shell import print_table
-from hylios.tanning import simulate
 
 
 def add_to(commands) -> None:
@@ -30,12 +29,9 @@ def add_to(commands) -> None:
 def run(asked: argparse.Namespace) -> None:
     """Simulate and print."""
     of = chosen(asked)
-    history = simulate(
+    history = of.skin.history(
         chosen_doses(asked, of).exposures(),
-        of.skin.dynamics,
-        mmd=of.skin.mmd,
-        med=of.skin.med,
-        hours=asked.hours,
+        asked.hours,
         step=int(asked.step) if asked.step >= 1.0 and asked.step.is_integer() else asked.step,
     )
     names = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")

@@ -24,7 +24,7 @@ from hylios.errors import InputError, require_range
 from hylios.quadrature import skin_quadrature
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import EPIDERMIS, Specimen, parameters
-from hylios.spectra import Figures
+from hylios.tissue import Model
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -313,8 +313,7 @@ def fit_spectrum(
     *,
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> Fit:
     """The specimen whose directional-hemispherical reflectance is nearest to a measured one.
 
@@ -341,7 +340,7 @@ def fit_spectrum(
     _require_shares("a reflectance to fit", reflectance)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        found = spectra(specimens, wavelengths, angle=angle, known=known, chosen=chosen)
+        found = spectra(specimens, wavelengths, angle=angle, model=model)
         return found.total
 
     return fit(start, observe, reflectance, SPECTRAL_UNCERTAINTY, free)
@@ -353,8 +352,7 @@ def fit_colour(
     *,
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> Fit:
     """The specimen of a colour: three numbers, so most of it is left as in `start`.
 
@@ -377,7 +375,7 @@ def fit_colour(
     few = skin_quadrature(COLOUR_COUNT)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        seen = spectra(specimens, few.wavelengths, angle=angle, known=known, chosen=chosen)
+        seen = spectra(specimens, few.wavelengths, angle=angle, model=model)
         return lab(seen.total @ few.weights.T)
 
     return fit(start, observe, lab(linear_of_srgb(srgb)), COLOUR_UNCERTAINTY, free)

@@ -6,7 +6,6 @@ from hylios.skin.skin import (
     UNTANNED,
     USUAL_PIGMENTATION,
     Skin,
-    skin,
     varied,
 )
 
@@ -16,6 +15,5 @@ __all__ = [
     "UNTANNED",
     "USUAL_PIGMENTATION",
     "Skin",
-    "skin",
     "varied",
 ]

@@ -1,20 +1,25 @@
-"""A skin that tans: a specimen, how it makes melanin, and the doses from which it tans and burns.
+"""Everything the tanning model needs to know about one person's skin.
 
-The one owner of what a tan belongs to. numpy only.
+A specimen, how it makes melanin, and the doses from which it tans and burns. numpy only.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, as_numbers, require_range
 from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, tanned
 from hylios.tanning import (
     PIGMENTATIONS,
+    Exposures,
     MelaninDynamics,
+    TanningHistory,
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
+    simulate,
+    states_at,
 )
 
 USUAL_PIGMENTATION = {"S1": "low", "S2": "low", "S3": "low", "S4": "high"}
@@ -70,63 +75,109 @@ class Skin:
         require_range("MMD", self.mmd, 0.01, 1000.0, "SED")
         require_range("MED", self.med, 0.01, 1000.0, "SED")
 
+    @classmethod
+    def of(
+        cls,
+        specimen: Specimen,
+        pigmentation: str | None = None,
+        mmd: float | None = None,
+        med: float | None = None,
+        *,
+        tanning: Mapping[str, float] | None = None,
+        untanned: str = "steady_state",
+    ) -> "Skin":
+        """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
+
+        Melanin outside the equations' range, such as none at all, counts as the range's end.
+
+        Parameters
+        ----------
+        mmd, med : float, optional
+            SED.
+        tanning : mapping, optional
+            Changes to the set's dynamics; see `varied`.
+
+        Raises
+        ------
+        InputError
+            If a minimal dose is out of range, there is no such tanning set, or a change to it or
+            the untanned state cannot be used.
+        """
+        level = min(max(specimen.pigmentation, LEAST_PIGMENTATION), MOST_PIGMENTATION)
+        pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
+        if pigmentation not in PIGMENTATIONS:
+            raise InputError(
+                f"pigmentation is {pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
+            )
+        return cls(
+            specimen=specimen,
+            pigmentation=pigmentation,
+            mmd=minimal_melanogenesis_dose(level) if mmd is None else mmd,
+            med=minimal_erythema_dose(level) if med is None else med,
+            dynamics=varied(PIGMENTATIONS[pigmentation], tanning or {}),
+            untanned=untanned,
+        )
+
     @property
     def untanned_melanin(self) -> np.ndarray:
         """Melanin of basale, spinosum, granulosum without sun, relative to their total (3,)."""
         steady = self.dynamics.steady_state()
         return steady / steady.sum()
 
-    def tanned(self, melanin: np.ndarray, thickness: float) -> Specimen:
-        """The specimen in a tanning state; see `hylios.skin.specimen.tanned`."""
-        return tanned(self.specimen, melanin, thickness, self._kept)
+    @property
+    def untanned_state(self) -> np.ndarray:
+        """The state without sun (4,): `untanned_melanin`, and thickness 1."""
+        return np.append(self.untanned_melanin, 1.0)
 
-    def overfull(self, melanin: np.ndarray, thickness: float) -> bool:
-        """Whether `tanned` cuts melanin in a state because it would overfill a layer."""
-        return overfull(self.specimen, melanin, thickness, self._kept)
+    def at(self, state: ArrayLike) -> Specimen:
+        """The specimen in a tanning state; see `hylios.skin.specimen.tanned`.
+
+        Parameters
+        ----------
+        state : (4,) array
+            Melanin of basale, spinosum, granulosum relative to the total without sun, and
+            thickness relative to that without sun.
+
+        Raises
+        ------
+        InputError
+            If the state has another shape, or one of its numbers is out of range.
+        """
+        return tanned(self.specimen, *_parts(state), self._kept)
+
+    def overfull(self, state: ArrayLike) -> bool:
+        """Whether `at` cuts melanin in a state (4,) because it would overfill a layer."""
+        return overfull(self.specimen, *_parts(state), self._kept)
+
+    def states(self, exposures: Exposures, times: ArrayLike, *, step: int = 1) -> np.ndarray:
+        """Tanning states (..., T, 4) after exposures, as `at` takes them, at times (T,) in hours.
+
+        Parameters and errors as in `hylios.tanning.states_at`.
+        """
+        return states_at(
+            exposures, self.dynamics, times=times, mmd=self.mmd, med=self.med, step=step
+        )
+
+    def history(self, exposures: Exposures, hours: int, *, step: float = 1) -> TanningHistory:
+        """The skin over time after exposures, from hour 0 to `hours`.
+
+        Parameters and errors as in `hylios.tanning.simulate`.
+        """
+        return simulate(
+            exposures, self.dynamics, mmd=self.mmd, med=self.med, hours=hours, step=step
+        )
 
     @property
     def _kept(self) -> np.ndarray | None:
         return self.untanned_melanin if self.untanned == "own" else None
 
 
-def skin(
-    specimen: Specimen,
-    pigmentation: str | None = None,
-    mmd: float | None = None,
-    med: float | None = None,
-    *,
-    tanning: Mapping[str, float] | None = None,
-    untanned: str = "steady_state",
-) -> Skin:
-    """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
-
-    Melanin outside the equations' range, such as none at all, counts as the range's end.
-
-    Parameters
-    ----------
-    tanning : mapping, optional
-        Changes to the set's dynamics; see `varied`.
-
-    Raises
-    ------
-    InputError
-        If a minimal dose is out of range, there is no such tanning set, or a change to it or the
-        untanned state cannot be used.
-    """
-    level = min(max(specimen.pigmentation, LEAST_PIGMENTATION), MOST_PIGMENTATION)
-    pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
-    if pigmentation not in PIGMENTATIONS:
-        raise InputError(
-            f"pigmentation is {pigmentation!r}; allowed is {', '.join(PIGMENTATIONS)}."
-        )
-    return Skin(
-        specimen=specimen,
-        pigmentation=pigmentation,
-        mmd=minimal_melanogenesis_dose(level) if mmd is None else mmd,
-        med=minimal_erythema_dose(level) if med is None else med,
-        dynamics=varied(PIGMENTATIONS[pigmentation], tanning or {}),
-        untanned=untanned,
-    )
+def _parts(state: ArrayLike) -> tuple[np.ndarray, float]:
+    """Melanin (3,) and thickness of a tanning state (4,)."""
+    numbers = as_numbers("tanning state", state)
+    if numbers.shape != (4,):
+        raise InputError(f"a tanning state has shape {numbers.shape}; expected (4,).")
+    return numbers[:3], float(numbers[3])
 
 
 def varied(dynamics: MelaninDynamics, values: Mapping[str, float]) -> MelaninDynamics:
@@ -144,7 +195,7 @@ def varied(dynamics: MelaninDynamics, values: Mapping[str, float]) -> MelaninDyn
     rates = {
         f"{layer}_{name}": (name, row) for name in _PER_LAYER for row, layer in enumerate(layers)
     }
-    scalars = [each.name for each in fields(MelaninDynamics) if each.name not in _PER_LAYER]
+    scalars = [rate.name for rate in fields(MelaninDynamics) if rate.name not in _PER_LAYER]
     changes: dict[str, list[float] | float] = {}
     for name, value in values.items():
         if name in rates:

@@ -1,7 +1,7 @@
-"""Spectral figures from the literature: what absorbs in skin, 250 to 2500 nm.
+"""Spectra from the literature: what absorbs in skin, 250 to 2500 nm, and action spectra.
 
-`figures.csv` holds the numbers, `sources.toml` says what each column is, where it comes from and
-where it is an estimate. Any figure can be replaced by a file of the user's own.
+`spectra.csv` holds the numbers, `sources.toml` says what each column is, where it comes from and
+where it is an estimate. Any spectrum can be replaced by a file of the user's own.
 """
 
 import csv
@@ -20,7 +20,7 @@ from hylios.errors import InputError
 
 @dataclass(frozen=True)
 class Estimate:
-    """A part of a figure that was not measured, from `first` to `last` nm."""
+    """A part of a spectrum that was not measured, from `first` to `last` nm."""
 
     first: float
     last: float
@@ -28,7 +28,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Figure:
+class Spectrum:
     """One spectrum with its unit, its source and what of it is an estimate.
 
     Attributes
@@ -45,46 +45,47 @@ class Figure:
     values: np.ndarray
 
     def at(self, wavelengths: np.ndarray | float) -> np.ndarray:
-        """Values at wavelengths in nm, linear between the figure's own.
+        """Values at wavelengths in nm, linear between the spectrum's own.
 
         Raises
         ------
         InputError
-            If a wavelength lies outside the figure.
+            If a wavelength lies outside the spectrum.
         """
         if isinstance(wavelengths, float):
             return _value(self, wavelengths)
-        asked = np.asarray(wavelengths, dtype=float)
+        wavelengths = np.asarray(wavelengths, dtype=float)
         first, last = self.wavelengths[0], self.wavelengths[-1]
-        outside = asked[~((asked >= first) & (asked <= last))]
+        outside = wavelengths[~((wavelengths >= first) & (wavelengths <= last))]
         if outside.size:
             raise InputError(
-                f"wavelength {outside.flat[0]:g} nm is outside the figure for {self.name}; "
+                f"wavelength {outside.flat[0]:g} nm is outside the spectrum of {self.name}; "
                 f"allowed is {first:g} to {last:g} nm."
             )
-        return np.interp(asked, self.wavelengths, self.values)
+        return np.interp(wavelengths, self.wavelengths, self.values)
 
 
 @lru_cache(maxsize=100_000)
-def _value(figure: Figure, wavelength: float) -> np.ndarray:
-    """A single value, kept: fits ask for the same few wavelengths thousands of times."""
-    return figure.at(np.array(wavelength))
+def _value(spectrum: Spectrum, wavelength: float) -> np.ndarray:
+    """A single value, kept: fits need the same few wavelengths thousands of times."""
+    return spectrum.at(np.array(wavelength))
 
 
-Figures = Mapping[str, Figure]
+Spectra = Mapping[str, Spectrum]
+"""Spectra by name."""
 
 
 @cache
-def figures() -> Figures:
-    """All figures of the project by name."""
+def published_spectra() -> Spectra:
+    """The project's own spectra by name, from the literature."""
     folder = files(__name__)
     sources = tomllib.loads((folder / "sources.toml").read_text(encoding="utf-8"))
-    rows = list(csv.reader((folder / "figures.csv").read_text(encoding="utf-8").splitlines()))
+    rows = list(csv.reader((folder / "spectra.csv").read_text(encoding="utf-8").splitlines()))
     columns = dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
     wavelengths = columns.pop("wavelength_nm")
     return MappingProxyType(
         {
-            name: Figure(
+            name: Spectrum(
                 name=name,
                 unit=sources[name]["unit"],
                 source=sources[name]["source"],
@@ -97,53 +98,53 @@ def figures() -> Figures:
     )
 
 
-def replaced(known: Figures, name: str, path: Path) -> Figures:
-    """The figures with one taken from a CSV file of two columns, nm and value, without a header.
+def with_own_spectrum(spectra: Spectra, name: str, path: Path) -> Spectra:
+    """The spectra with one of them from a CSV file: two columns, nm and value, without a header.
 
     Raises
     ------
     InputError
-        If there is no such figure, or the file is not two columns of ascending, usable numbers.
+        If there is no such spectrum, or the file is not two columns of ascending, usable numbers.
     """
-    if name not in known:
-        raise InputError(f"there is no figure {name!r}; there are {', '.join(known)}.")
+    if name not in spectra:
+        raise InputError(f"there is no spectrum {name!r}; there are {', '.join(spectra)}.")
     try:
         rows = path.read_text(encoding="utf-8").splitlines()
         wavelengths, values = np.array([row.split(",") for row in rows if row], dtype=float).T
     except (OSError, ValueError) as error:
-        raise InputError(f"the figure in {path} cannot be read: {error}.") from error
+        raise InputError(f"the spectrum in {path} cannot be read: {error}.") from error
     usable = np.all(np.isfinite(values)) and np.all(values >= 0)
     if not (usable and np.all(np.diff(wavelengths) > 0)):
         raise InputError(f"{path} needs ascending wavelengths in nm and values of 0 or more.")
-    own = Figure(name, known[name].unit, str(path), (), wavelengths, values)
-    return MappingProxyType({**known, name: own})
+    own = Spectrum(name, spectra[name].unit, str(path), (), wavelengths, values)
+    return MappingProxyType({**spectra, name: own})
 
 
-def require_wavelengths(wavelengths: Iterable[float] | float, known: Figures) -> np.ndarray:
-    """The wavelengths in nm as an array (W,), if every figure has them.
+def require_wavelengths(wavelengths: Iterable[float] | float, spectra: Spectra) -> np.ndarray:
+    """The wavelengths in nm as an array (W,), if every spectrum has them.
 
     Raises
     ------
     InputError
-        If they are no list of numbers, there is none, or one lies outside a figure.
+        If they are no list of numbers, there is none, or one lies outside a spectrum.
     """
     listed = [wavelengths] if np.isscalar(wavelengths) else wavelengths
     try:
-        asked = np.array(list(listed), dtype=float)  # type: ignore[arg-type]
+        result = np.array(list(listed), dtype=float)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        asked = np.empty(0)
-    if asked.ndim != 1 or asked.size == 0:
+        result = np.empty(0)
+    if result.ndim != 1 or result.size == 0:
         raise InputError("wavelengths are no list of numbers; at least one is needed, in nm.")
-    for each in known.values():
-        each.at(asked)
-    return asked
+    for spectrum in spectra.values():
+        spectrum.at(result)
+    return result
 
 
-def estimates_within(known: Figures, names: Iterable[str], wavelengths: np.ndarray) -> list[str]:
-    """One line for each part of the named figures that is an estimate at some wavelength, nm."""
+def estimates_within(spectra: Spectra, names: Iterable[str], wavelengths: np.ndarray) -> list[str]:
+    """One line for each part of the named spectra that is an estimate at some wavelength, nm."""
     return [
         f"{name}, {part.first:g} to {part.last:g} nm: {part.what}"
         for name in names
-        for part in known[name].estimates
+        for part in spectra[name].estimates
         if np.any((wavelengths >= part.first) & (wavelengths <= part.last))
     ]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hylios.errors import InputError, as_numbers
-from hylios.spectra import Figures, figures
+from hylios.spectra import Spectra, published_spectra
 
 SED = 100.0
 """Joule per square metre at 298 nm in one standard erythema dose."""
@@ -93,7 +93,7 @@ def melanogenesis_dose(
     wavelengths: ArrayLike,
     exposure: ArrayLike,
     absorptance: Absorptance,
-    known: Figures | None = None,
+    spectra: Spectra | None = None,
 ) -> np.ndarray:
     """Dose in SED as it counts for melanin: 5.4 times the MMD. PROVISIONAL, as its action is.
 
@@ -104,7 +104,7 @@ def melanogenesis_dose(
     exposure : (..., W) array
         Radiant exposure per wavelength, J/m^2/nm, linear between the wavelengths.
     absorptance : Absorptance
-    known : Figures, optional
+    spectra : mapping of str to Spectrum, optional
         Other action spectra.
 
     Returns
@@ -117,36 +117,36 @@ def melanogenesis_dose(
         If the wavelengths do not ascend, the exposure is negative or not a number, or not 0 below
         280 nm.
     """
-    return _dose(MELANOGENESIS, wavelengths, exposure, absorptance, known)
+    return _dose(MELANOGENESIS, wavelengths, exposure, absorptance, spectra)
 
 
 def thickening_dose(
     wavelengths: ArrayLike,
     exposure: ArrayLike,
     absorptance: Absorptance,
-    known: Figures | None = None,
+    spectra: Spectra | None = None,
 ) -> np.ndarray:
     """Dose in SED as it counts for the thickness: 5.20 times the MED.
 
     Parameters, result and errors as in `melanogenesis_dose`.
     """
-    return _dose(ERYTHEMA, wavelengths, exposure, absorptance, known)
+    return _dose(ERYTHEMA, wavelengths, exposure, absorptance, spectra)
 
 
 def erythemal_dose(
-    wavelengths: ArrayLike, exposure: ArrayLike, known: Figures | None = None
+    wavelengths: ArrayLike, exposure: ArrayLike, spectra: Spectra | None = None
 ) -> np.ndarray:
     """Dose in SED as meters show it (ISO/CIE 17166): without the skin's absorptance.
 
     Parameters, result and errors as in `melanogenesis_dose`.
     """
-    return _dose(ERYTHEMA, wavelengths, exposure, _ALIKE, known)
+    return _dose(ERYTHEMA, wavelengths, exposure, _ALIKE, spectra)
 
 
 _ALIKE = Absorptance(np.array([FIRST_NM, LAST_NM]), np.ones(2))
 
 
-def action(name: str, wavelengths: np.ndarray, known: Figures | None = None) -> np.ndarray:
+def action(name: str, wavelengths: np.ndarray, spectra: Spectra | None = None) -> np.ndarray:
     """An action spectrum of `hylios.spectra` at wavelengths in nm.
 
     Between its own wavelengths its logarithm is linear, as CIE's erythema is; straight lines would
@@ -155,20 +155,22 @@ def action(name: str, wavelengths: np.ndarray, known: Figures | None = None) -> 
     Raises
     ------
     InputError
-        If a wavelength lies outside the figure.
+        If a wavelength lies outside the spectrum.
     """
-    figure = (known or figures())[name]
-    linear = figure.at(np.asarray(wavelengths, dtype=float))
-    after = np.searchsorted(figure.wavelengths, wavelengths).clip(1, figure.wavelengths.size - 1)
-    left, right = figure.wavelengths[after - 1], figure.wavelengths[after]
-    low, high = figure.values[after - 1], figure.values[after]
+    spectrum = (spectra or published_spectra())[name]
+    linear = spectrum.at(np.asarray(wavelengths, dtype=float))
+    after = np.searchsorted(spectrum.wavelengths, wavelengths).clip(
+        1, spectrum.wavelengths.size - 1
+    )
+    left, right = spectrum.wavelengths[after - 1], spectrum.wavelengths[after]
+    low, high = spectrum.values[after - 1], spectrum.values[after]
     share = (wavelengths - left) / (right - left)
     return np.where((low > 0) & (high > 0), low ** (1.0 - share) * high**share, linear)
 
 
-def _dose(name, wavelengths, exposure, absorptance: Absorptance, known) -> np.ndarray:
+def _dose(name, wavelengths, exposure, absorptance: Absorptance, spectra) -> np.ndarray:
     grid, light = resampled(wavelengths, exposure)
-    return equivalent_dose(grid, light, action(name, grid, known), absorptance.at(grid))
+    return equivalent_dose(grid, light, action(name, grid, spectra), absorptance.at(grid))
 
 
 def resampled(wavelengths: ArrayLike, exposure: ArrayLike) -> tuple[np.ndarray, np.ndarray]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hylios.errors import InputError, as_numbers, require_range
-from hylios.spectra import Figures
+from hylios.spectra import Spectra
 from hylios.sun.action_spectra import (
     SED,
     Absorptance,
@@ -70,7 +70,7 @@ def joined(parts: Sequence[Doses]) -> Doses:
     names = ("hours", "erythemal", "melanogenesis", "thickening")
     none = [np.zeros(0)]
     return Doses(
-        *(np.concatenate(none + [getattr(each, name) for each in parts]) for name in names)
+        *(np.concatenate(none + [getattr(part, name) for part in parts]) for name in names)
     )
 
 
@@ -113,7 +113,7 @@ def of_spectrum(
     seconds: float,
     absorptance: Absorptance,
     protection: Protection = BARE,
-    known: Figures | None = None,
+    spectra: Spectra | None = None,
 ) -> Doses:
     """Time under light of a spectrum (5.1 to 5.4, 5.17 to 5.20).
 
@@ -127,7 +127,7 @@ def of_spectrum(
         0 to 864000.
     absorptance : Absorptance
         Of the skin.
-    known : Figures, optional
+    spectra : mapping of str to Spectrum, optional
         Other action spectra.
 
     Raises
@@ -139,7 +139,7 @@ def of_spectrum(
     hours, shares = _spread(hour, seconds / 3600.0)
     with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused below
         exposure = 3600.0 * shares[:, None] * as_numbers("values of a spectral dose", irradiance)
-    return _of_light(hours, wavelengths, exposure, absorptance, protection, known)
+    return _of_light(hours, wavelengths, exposure, absorptance, protection, spectra)
 
 
 def of_sun(
@@ -154,7 +154,7 @@ def of_sun(
     utc_offset: float = 0.0,
     sky: ClearSky | None = None,
     protection: Protection = BARE,
-    known: Figures | None = None,
+    spectra: Spectra | None = None,
 ) -> Doses:
     """Hours of a day under a clear sky, one dose for each (5.1 to 5.4, 5.17 to 5.20).
 
@@ -165,7 +165,7 @@ def of_sun(
         Hours of the day, 0 to 24: local solar time, or a clock's where a longitude is given.
     latitude, longitude, utc_offset
         As in `hylios.sun.position.sun`.
-    absorptance, protection, known
+    absorptance, protection, spectra
         As in `of_spectrum`.
     start : date, optional
         The day whose midnight is hour 0; `day` by default.
@@ -176,10 +176,10 @@ def of_sun(
     InputError
         If one is out of range, the hours do not ascend, or the day lies before the start.
     """
-    for each in (first, last):
-        require_range("hour of sun", each, 0.0, 24.0)
+    for hour in (first, last):
+        require_range("hour of sun", hour, 0.0, 24.0)
     if first >= last:
-        raise InputError(f"sun is asked for from {first:g} to {last:g} h; the first must be less.")
+        raise InputError(f"sun is given from {first:g} to {last:g} h; the first must be less.")
     start = start or day
     if day < start:
         raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
@@ -190,18 +190,18 @@ def of_sun(
     light = sunlight(place.zenith, sky or ClearSky(), place.distance)
     exposure = 3600.0 * lengths[:, None] * light.level.mean(axis=1)
     hours = 24.0 * (day - start).days + np.floor(edges[:-1])
-    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, known)
+    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra)
 
 
-def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection, known) -> Doses:
+def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection, spectra) -> Doses:
     """Doses of radiant exposures (E, W), J/m^2/nm."""
     grid, light = resampled(wavelengths, exposure)
     received = light * protection.at(grid)
     return Doses(
         hours,
-        erythemal_dose(grid, received, known),
-        melanogenesis_dose(grid, received, absorptance, known),
-        thickening_dose(grid, received, absorptance, known),
+        erythemal_dose(grid, received, spectra),
+        melanogenesis_dose(grid, received, absorptance, spectra),
+        thickening_dose(grid, received, absorptance, spectra),
     )
 
 

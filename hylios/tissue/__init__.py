@@ -1,61 +1,22 @@
-"""Optical layers of a skin at a wavelength."""
+"""Optical layers of a skin at a wavelength.
 
-from hylios.tissue.layers import (
-    ABSORBERS,
-    BETA_CAROTENE_WEIGHT,
-    BILIRUBIN_WEIGHT,
-    FIBRE_INDEX_RATIO,
-    FIBRE_RADIUS,
-    FIBRE_VOLUME,
-    FIGURES,
-    HEMOGLOBIN_WEIGHT,
-    MOST_MELANOSOMES_MET,
-    PARTS,
-    READINGS,
-    REFERENCE_NM,
-    SCALE_ANGLE,
-    SOLID_MELANIN,
-    Layer,
-    Reading,
-    Stack,
-    absorbers,
-    blood_absorbers,
-    blood_coefficient,
-    encounter_coefficient,
-    melanin_coefficient,
-    rayleigh_coefficient,
-    readings,
-    refractive_index,
-    scattering_angle,
-    stack,
-)
+`model` says what is taken for granted, `absorbers` what absorbs where, `melanosomes` what they do
+in a layer, `layers` puts them together as a `Stack`.
+"""
+
+from hylios.tissue.absorbers import ABSORBERS, PARTS, SPECTRA, absorbers
+from hylios.tissue.layers import Layer, Stack
+from hylios.tissue.model import Model
+from hylios.tissue.readings import READINGS, complete_readings
 
 __all__ = [
     "ABSORBERS",
-    "BETA_CAROTENE_WEIGHT",
-    "BILIRUBIN_WEIGHT",
-    "FIBRE_INDEX_RATIO",
-    "FIBRE_RADIUS",
-    "FIBRE_VOLUME",
-    "FIGURES",
-    "HEMOGLOBIN_WEIGHT",
-    "Layer",
-    "MOST_MELANOSOMES_MET",
     "PARTS",
     "READINGS",
-    "REFERENCE_NM",
-    "Reading",
-    "SCALE_ANGLE",
-    "SOLID_MELANIN",
+    "SPECTRA",
+    "Layer",
+    "Model",
     "Stack",
     "absorbers",
-    "blood_absorbers",
-    "blood_coefficient",
-    "encounter_coefficient",
-    "melanin_coefficient",
-    "rayleigh_coefficient",
-    "readings",
-    "refractive_index",
-    "scattering_angle",
-    "stack",
+    "complete_readings",
 ]

@@ -26,15 +26,13 @@ flat surface, rayleigh = every_collision   0.999 (.010)  0.989 (.021)
 The surface's own ratio was 3.5 in S3 and 2.4 in S4; cos(15) / cos(75) is 3.7, before Z.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures
-from hylios.tissue import Stack
+from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted, skin_key, skin_stack
 from hylios.transport.simulate import Rays, share_error
 from hylios.transport.walk import SUBSURFACE, SURFACE
@@ -114,8 +112,7 @@ def brdf(
     rays: int = 1_000_000,
     seed: int = 1,
     threads: int | None = None,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> AngularReflectance:
     """BRDF of a specimen at one wavelength and angle of incidence.
 
@@ -127,7 +124,7 @@ def brdf(
         Of incidence, in degrees, 0 to 89.99.
     polar_bins, azimuth_bins : int
         1 to 1000 each.
-    threads, known, chosen
+    threads, model
         As in `hylios.transport.simulate.spectrum`.
 
     Raises
@@ -136,7 +133,7 @@ def brdf(
         If an argument is out of range.
     """
     return angular_reflectance(
-        skin_stack(specimen, wavelength, known=known, chosen=chosen),
+        skin_stack(specimen, wavelength, model),
         angle=angle,
         polar_bins=polar_bins,
         azimuth_bins=azimuth_bins,

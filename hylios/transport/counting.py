@@ -1,32 +1,25 @@
 """Counts over many rays through one stack, piece by piece on all cores."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 
 from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures
-from hylios.tissue import Stack, stack
+from hylios.tissue import Model, Stack
 from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, thread_count, trace
 from hylios.transport.survival import with_survival
 
 
-def skin_stack(
-    specimen: Specimen,
-    wavelength: float,
-    *,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
-) -> Stack:
+def skin_stack(specimen: Specimen, wavelength: float, model: Model | None = None) -> Stack:
     """The layers of a specimen at one wavelength in nm, ready to be walked.
 
     Raises
     ------
     InputError
-        As `hylios.tissue.stack`.
+        As `hylios.tissue.Stack.of`.
     """
-    return with_survival(stack(specimen, wavelength, known=known, chosen=chosen))
+    return with_survival(Stack.of(specimen, wavelength, model))
 
 
 def skin_key(seed: int, wavelength: float) -> tuple[int, int]:

@@ -1,6 +1,5 @@
 """How far from where a pencil beam comes in light leaves: the radial exitance R(r)."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,8 +7,7 @@ import numpy as np
 from hylios.burley import burley_share_within, burley_width, burley_width_error
 from hylios.errors import InputError, require_range, require_whole
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures
-from hylios.tissue import Stack
+from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted, skin_key, skin_stack
 from hylios.transport.simulate import Rays, share_error
 from hylios.transport.walk import SUBSURFACE
@@ -122,8 +120,7 @@ def profile(
     rays: int = 1_000_000,
     seed: int = 1,
     threads: int | None = None,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> RadialExitance:
     """Radial exitance of a specimen at one wavelength under a pencil beam.
 
@@ -137,7 +134,7 @@ def profile(
         Outer radius in mm of the first ring, which starts at 0, and of the last.
     rings : int
         2 to 10,000.
-    threads, known, chosen
+    threads, model
         As in `hylios.transport.simulate.spectrum`.
 
     Raises
@@ -146,7 +143,7 @@ def profile(
         If an argument is out of range.
     """
     return radial_exitance(
-        skin_stack(specimen, wavelength, known=known, chosen=chosen),
+        skin_stack(specimen, wavelength, model),
         angle=angle,
         smallest=smallest,
         largest=largest,

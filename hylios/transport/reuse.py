@@ -11,7 +11,7 @@ reuse does not pay, this comes down to simulating each state for itself. What fa
 limit all the same is simulated anew.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,8 +19,8 @@ import numpy as np
 from hylios.adding.melanosomes import encounters
 from hylios.errors import InputError, require_range
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures, figures, require_wavelengths
-from hylios.tissue import Layer, Stack, stack
+from hylios.spectra import require_wavelengths
+from hylios.tissue import Layer, Model, Stack
 from hylios.transport.counting import skin_key
 from hylios.transport.paths import (
     LEAST,
@@ -206,8 +206,7 @@ def skin_profiles(
     angle: float = 8.0,
     seed: int = 1,
     threads: int | None = None,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
 ) -> list[Profiles]:
     """Profiles of a specimen's tanning states (`Skin.tanned`) at each wavelength in nm.
 
@@ -216,13 +215,13 @@ def skin_profiles(
     """
     return [
         profiles(
-            [stack(each, wavelength, known=known, chosen=chosen) for each in specimens],
+            [Stack.of(each, wavelength, model) for each in specimens],
             error=error,
             angle=angle,
             key=skin_key(seed, wavelength),
             threads=threads,
         )
-        for wavelength in require_wavelengths(wavelengths, known or figures())
+        for wavelength in require_wavelengths(wavelengths, (model or Model()).spectra)
     ]
 
 

@@ -1,7 +1,7 @@
 """Light transport as arrays: rays through a stack, spectra and exit distances of a specimen."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
@@ -9,8 +9,8 @@ import numpy as np
 
 from hylios.errors import require_range, require_whole
 from hylios.skin.specimen import Specimen
-from hylios.spectra import Figures, figures, require_wavelengths
-from hylios.tissue import ABSORBERS, PARTS, Stack, absorbers, stack
+from hylios.spectra import require_wavelengths
+from hylios.tissue import ABSORBERS, PARTS, Model, Stack, absorbers
 from hylios.transport.generator import stream
 from hylios.transport.kernels import (
     count_as_printed,
@@ -243,8 +243,7 @@ def spectrum(
     rays: int = 100_000,
     seed: int = 1,
     threads: int | None = None,
-    known: Figures | None = None,
-    chosen: Mapping[str, str] | None = None,
+    model: Model | None = None,
     as_printed: bool = False,
     progress: Progress | None = None,
 ) -> Spectrum:
@@ -263,10 +262,8 @@ def spectrum(
         Per wavelength.
     threads : int, optional
         All cores by default.
-    known : Figures, optional
-        The project's own spectral figures by default.
-    chosen : mapping, optional
-        Readings of the thesis's text that differ from the defaults (`hylios.tissue.READINGS`).
+    model : Model, optional
+        Spectra and readings, the project's own by default.
     as_printed : bool
         Walk as the thesis prints it (`hylios.transport.printed`), instead of sampling the same
         distributions without waste (`hylios.transport.equivalent`, which says how nearly the
@@ -277,13 +274,11 @@ def spectrum(
     InputError
         If a wavelength, the angle or the number of rays is out of range.
     """
-    asked = require_wavelengths(wavelengths, known or figures())
+    asked = require_wavelengths(wavelengths, (model or Model()).spectra)
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     seed = require_whole("seed", seed, 0, 2**63)
     threads = thread_count(threads)
-    stacks = [
-        _ready(stack(specimen, each, known=known, chosen=chosen), as_printed) for each in asked
-    ]
+    stacks = [_ready(Stack.of(specimen, each, model), as_printed) for each in asked]
     work = (
         (row, min(CHUNK, rays - first), (seed, round(asked[row] * 1000), first))
         for row in range(asked.size)
@@ -312,19 +307,16 @@ def spectrum(
         lost_below=left[:, TRANSMITTED],
         absorbed=absorbed[:, 0],
         absorbed_in_melanosomes=absorbed[:, 1],
-        absorber_shares=_absorber_shares(specimen, asked, known, chosen),
+        absorber_shares=_absorber_shares(specimen, asked, model),
         exit_counts=np.array([each.exits for each in counts]),
     )
 
 
 def _absorber_shares(
-    specimen: Specimen,
-    wavelengths: np.ndarray,
-    known: Figures | None,
-    chosen: Mapping[str, str] | None,
+    specimen: Specimen, wavelengths: np.ndarray, model: Model | None
 ) -> np.ndarray:
     """Of each layer's absorption, each absorber's share (W, L, A); 0 where nothing absorbs."""
-    held = absorbers(specimen, wavelengths, known=known, chosen=chosen)
+    held = absorbers(specimen, wavelengths, model=model)
     none = np.zeros(wavelengths.size)
     table = np.array([[held[part].get(name, none) for name in ABSORBERS] for part in PARTS])
     table = np.moveaxis(table, -1, 0)

@@ -90,10 +90,10 @@ class FineProfiles:
     misfits: np.ndarray
 
 
-def between_knots(made_for: Skin, count: int, seed: int) -> np.ndarray:
+def between_knots(skin: Skin, count: int, seed: int) -> np.ndarray:
     """Tanned states (N, 4) of schedules other than those that chose the axes."""
-    states = reachable_states(made_for, 100, seed)
-    tanned = np.abs(np.log(states / choose_axes(made_for, (1,)).untanned)).max(axis=1) > 1e-3
+    states = reachable_states(skin, 100, seed)
+    tanned = np.abs(np.log(states / choose_axes(skin, (1,)).untanned)).max(axis=1) > 1e-3
     return np.random.default_rng(seed).choice(states[tanned], count, replace=False)
 
 
@@ -104,28 +104,26 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
     return time.process_time() - start, result
 
 
-def reflectances(
-    made_for: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int
-) -> np.ndarray:
+def reflectances(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int) -> np.ndarray:
     """Total reflectance (N, W) of states by the solver, as pieces of a table compute it."""
     found = []
     for first in range(0, len(states), STATES_TOGETHER):
-        some = [made_for.tanned(each[:3], each[3]) for each in states[first:][:STATES_TOGETHER]]
+        some = [skin.at(each) for each in states[first:][:STATES_TOGETHER]]
         found.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
     return np.concatenate(found)
 
 
-def solver_cost(made_for: Skin, nodes: int, repeats: int) -> Cost:
+def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:
     """What a reflectance costs with so many nodes.
 
     Of some runs the fastest counts: other work can only slow one down.
     """
-    states = reachable_states(made_for, 1, 1)[:: 240 // STATES_TOGETHER][:STATES_TOGETHER]
+    states = reachable_states(skin, 1, 1)[:: 240 // STATES_TOGETHER][:STATES_TOGETHER]
     firsts, each = [], []
     for repeat in range(repeats):
         unseen = UNSEEN + 0.1 * repeat
-        first, _ = timed(lambda at=unseen: reflectances(made_for, states[:1], at, nodes))
-        rest, _ = timed(lambda at=unseen: reflectances(made_for, states, at, nodes))
+        first, _ = timed(lambda at=unseen: reflectances(skin, states[:1], at, nodes))
+        rest, _ = timed(lambda at=unseen: reflectances(skin, states, at, nodes))
         firsts.append(first / UNSEEN.size)
         each.append(rest / UNSEEN.size / len(states))
     return Cost(min(each), max(min(firsts) - min(each), 0.0))
@@ -149,12 +147,12 @@ def start_seconds(has_profile: bool, repeats: int) -> float:
 
 
 def walk(
-    made_for: Skin, states: np.ndarray, wavelengths: np.ndarray, rays: int, seed: int
+    skin: Skin, states: np.ndarray, wavelengths: np.ndarray, rays: int, seed: int
 ) -> tuple[float, np.ndarray]:
     """Seconds of a reflectance by random walk, and total reflectances (N, W)."""
 
     def light(state: np.ndarray) -> np.ndarray:
-        specimen = made_for.tanned(state[:3], state[3])
+        specimen = skin.at(state)
         return walked(specimen, wavelengths, angle=ANGLE, rays=rays, seed=seed, threads=1).total
 
     light(states[0])  # compiles or loads the kernels
@@ -163,11 +161,11 @@ def walk(
 
 
 def fine_profiles(
-    made_for: Skin, states: np.ndarray, wavelengths: int, error: float, seed: int
+    skin: Skin, states: np.ndarray, wavelengths: int, error: float, seed: int
 ) -> FineProfiles:
     """Profiles of states from so many wavelengths, with a standard error."""
     few = skin_quadrature(wavelengths)
-    specimens = [made_for.tanned(each[:3], each[3]) for each in states]
+    specimens = [skin.at(each) for each in states]
     # Another seed than the tables': errors are to be independent.
     found = skin_profiles(
         specimens, few.wavelengths, error=error, angle=ANGLE, seed=seed + 1, threads=1
@@ -209,7 +207,7 @@ def lightness_lost(light: np.ndarray, shares: np.ndarray) -> np.ndarray:
 
 
 def profile_runs(
-    made_for: Skin,
+    skin: Skin,
     settings: Settings,
     errors: Sequence[float],
     states: np.ndarray,
@@ -221,7 +219,7 @@ def profile_runs(
     for error in errors:
         if len(runs) > 1 and _expected(runs, error) > longest:
             break
-        request = requested(made_for, replace(settings, profile_error=error), seed=seed)
+        request = requested(skin, replace(settings, profile_error=error), seed=seed)
         shared, results = 0.0, {}
         for each in pieces(request):
             seconds, results[each.name] = timed(lambda of=request, piece=each: computed(of, piece))
@@ -243,10 +241,10 @@ def _expected(runs: list[Run], error: float) -> float:
 
 
 def half_against_full(
-    made_for: Skin, settings: Settings, states: np.ndarray, seed: int
+    skin: Skin, settings: Settings, states: np.ndarray, seed: int
 ) -> tuple[np.ndarray, dict[str, int]]:
     """CIEDE2000 (N,) that numbers of 16 bits make, and bytes of the file by kind of number."""
-    request = requested(made_for, settings, seed=seed)
+    request = requested(skin, settings, seed=seed)
     table = assembled(request, {each.name: computed(request, each) for each in pieces(request)})
     rounded = {
         name: each.astype(np.float16).astype(float)

@@ -187,7 +187,7 @@ Step = tuple[float, Callable[[], Any]]
 
 
 def measure(
-    made_for: Skin,
+    skin: Skin,
     extent: Extent = FULL,
     *,
     seed: int = 1,
@@ -200,15 +200,15 @@ def measure(
     begin : callable, optional
         Told the seconds of all; what it returns is told those of each step as it ends.
     """
-    states = between_knots(made_for, extent.states, seed)
-    steps = _steps(made_for, extent, states, seed)
+    states = between_knots(skin, extent.states, seed)
+    steps = _steps(skin, extent, states, seed)
     progress = begin(sum(size for size, _ in steps.values())) if begin else None
     found: dict[Any, Any] = {}
     for name, (size, work) in steps.items():
         found[name] = work()
         if progress:
             progress(size)
-    colour = _colour_errors(made_for, extent, states, found)
+    colour = _colour_errors(skin, extent, states, found)
     fine: FineProfiles = found["profile fine"]
     profile = {}
     for count in extent.profile_wavelengths:
@@ -250,13 +250,13 @@ def _processor() -> str:
     return named[0] if named else platform.processor() or platform.machine()
 
 
-def _steps(made_for: Skin, extent: Extent, states: np.ndarray, seed: int) -> dict[Any, Step]:
+def _steps(skin: Skin, extent: Extent, states: np.ndarray, seed: int) -> dict[Any, Step]:
     """All measurements by name."""
     few = _wavelengths(extent)
 
     def light(some: np.ndarray, wavelengths: np.ndarray, nodes: int) -> Step:
         size = len(some) * wavelengths.size * SECONDS_EACH * (nodes / NODES) ** 2
-        return size, lambda: reflectances(made_for, some, wavelengths, nodes)
+        return size, lambda: reflectances(skin, some, wavelengths, nodes)
 
     steps: dict[Any, Step] = {
         "start": (6.0, lambda: start_seconds(True, extent.repeats)),
@@ -265,33 +265,33 @@ def _steps(made_for: Skin, extent: Extent, states: np.ndarray, seed: int) -> dic
         "broad": light(states[: extent.broad_states], BROAD, NODES),
     }
     for nodes in extent.nodes:
-        steps["cost", nodes] = 0.5, lambda n=nodes: solver_cost(made_for, n, extent.repeats)
+        steps["cost", nodes] = 0.5, lambda n=nodes: solver_cost(skin, n, extent.repeats)
     for nodes in {*extent.nodes, NODES}:
         steps["nodes", nodes] = light(states, few, nodes)
     for knots in extent.knots:
-        knot_states = choose_axes(made_for, knots).knot_states().reshape(-1, 4)
+        knot_states = choose_axes(skin, knots).knot_states().reshape(-1, 4)
         steps["knots", knots] = light(knot_states, few, NODES)
     base = skin_quadrature(BASE_WAVELENGTHS).wavelengths
     some = states[: extent.walked_states]
     for rays in extent.rays:
         size = 1.0 + rays * len(some) * base.size * 5e-6
-        steps["walk", rays] = size, lambda n=rays: walk(made_for, some, base, n, seed)
+        steps["walk", rays] = size, lambda n=rays: walk(skin, some, base, n, seed)
     seen = states[: extent.profile_states]
     fine = extent.fine_profile_wavelengths, extent.fine_profile_error
     steps["profile fine"] = (
         fine[0] * (0.2 + 1e-6 * len(seen) / fine[1] ** 2 / 4.0),
-        lambda: fine_profiles(made_for, seen, *fine, seed),
+        lambda: fine_profiles(skin, seen, *fine, seed),
     )
     for knots, count in product(extent.knots, extent.profile_wavelengths):
         table = Settings(knots, 4, (), extent.profile_errors[0], count, nodes=10)
         steps["profile", knots, count] = (
             2.0 + 2.0 * extent.longest * min(1.0, table.states / 400.0),
             lambda made=table: profile_runs(
-                made_for, made, extent.profile_errors, seen, extent.longest, seed
+                skin, made, extent.profile_errors, seen, extent.longest, seed
             ),
         )
     written = Settings(extent.file_knots, profile_error=MOST_PROFILE_ERROR)
-    steps["half"] = 6.0, lambda: half_against_full(made_for, written, states, seed)
+    steps["half"] = 6.0, lambda: half_against_full(skin, written, states, seed)
     return steps
 
 
@@ -306,7 +306,7 @@ def _fine_wavelengths() -> np.ndarray:
 
 
 def _colour_errors(
-    made_for: Skin, extent: Extent, states: np.ndarray, found: dict[Any, Any]
+    skin: Skin, extent: Extent, states: np.ndarray, found: dict[Any, Any]
 ) -> dict[Any, ColourError]:
     """Errors of colours by (knots, interpolation, wavelengths, nodes)."""
     few, grid = _wavelengths(extent), _fine_wavelengths()
@@ -316,7 +316,7 @@ def _colour_errors(
     direct_bands = fine[:, np.isin(grid, BANDS_NM)]
     errors = {}
     for knots, kind in product(extent.knots, INTERPOLATIONS):
-        axes = choose_axes(made_for, knots)
+        axes = choose_axes(skin, knots)
         positions = axes.coordinates(states)
 
         def seen(values: np.ndarray, axes=axes, positions=positions, kind=kind) -> np.ndarray:

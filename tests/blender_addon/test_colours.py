@@ -31,19 +31,19 @@ import numpy as np
 
 import hylios
 from hylios.adding import colours
-from hylios.skin import skin
+from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS
 
 assert Path(hylios.__file__).is_relative_to(carried), hylios.__file__
 states = np.load(sys.argv[3])
-found = colours(skin(SPECIMENS["S3"]), states, count=8)
+found = colours(Skin.of(SPECIMENS["S3"]), states, count=8)
 assert not {"numba", "scipy", "colour", "threadpoolctl"} & set(sys.modules)
 np.save(sys.argv[4], found.total)
 
 for index in (1.5, 1.51, 1.52):  # all that depends on refraction is worked out anew
     changed = replace(SPECIMENS["S3"], corneum_refractive_index=index, papillary_blood=4.0)
     started = time.process_time()
-    colours(skin(changed), states, count=8)
+    colours(Skin.of(changed), states, count=8)
     print(time.process_time() - started)
 """
 

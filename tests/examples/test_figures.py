@@ -11,7 +11,7 @@ from examples.figures import absorbers, compression, melanin_forms, report, sens
 from examples.figures.light import RANGE, Curve, Effort, noisy
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.spectra import figures
+from hylios.spectra import published_spectra
 
 RANDOM = np.random.default_rng(5)
 SPECTRA = 0.3 + 0.1 * RANDOM.random((12, 3)) @ RANDOM.random((3, RANGE.size))
@@ -146,9 +146,9 @@ def test_agreement_counts_standard_errors():
 
 def test_estimates_are_told_from_measurements():
     """Eumelanin is measured to 820 nm; keratin nowhere."""
-    eumelanin = figures()["eumelanin"]
+    eumelanin = published_spectra()["eumelanin"]
     assert np.array_equal(absorbers.estimated(eumelanin), eumelanin.wavelengths > 820.0)
-    assert absorbers.estimated(figures()["keratin"]).all()
+    assert absorbers.estimated(published_spectra()["keratin"]).all()
 
 
 def test_the_same_seed_draws_the_same_noise():

@@ -75,7 +75,7 @@ def test_eight_wavelengths_give_the_lightness_of_a_spectrum():
     wavelengths = np.arange(400.0, 701.0, 10.0)
     found = spectrum(tanned(skin.specimen, melanin, 1.2), wavelengths).total
     expected = lab(linear_rec709(wavelengths, found))[0]
-    assert abs(lab(tans.colour(skin, melanin, 1.2))[0] - expected) < 0.03
+    assert abs(lab(tans.colour(skin, np.append(melanin, 1.2)))[0] - expected) < 0.03
 
 
 def test_small_doses_add_to_what_a_large_one_does(adding):

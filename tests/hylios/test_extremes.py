@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from hylios.errors import InputError
 from hylios.skin.specimen import ARRANGEMENTS, EPIDERMIS, SPECIMENS, parameters
-from hylios.tissue import READINGS, Layer, Stack, readings, stack
+from hylios.tissue import READINGS, Layer, Model, Stack, complete_readings
 from hylios.transport import survival
 from hylios.transport.simulate import DISTANCE_EDGES, count, spectrum, trace
 from hylios.transport.walk import LOST, SUBSURFACE
@@ -83,16 +83,16 @@ def test_every_skin_gives_numbers(name, values, scale, wavelength, angle, readin
         for each, factor in ((f"{part}_thickness", factor) for part, factor in scale.items())
     }
     specimen = replace(usual, **values, **thick)
-    chosen = dict([reading])
+    model = Model(readings=dict([reading]))
     try:
-        layers = stack(specimen, wavelength, chosen=chosen)
+        layers = Stack.of(specimen, wavelength, model)
     except InputError as error:
         assert "thickness is" in str(error)  # of a layer, for the melanosomes in it
         assume(False)
     assume(sum(each.thickness * each.encounter for each in layers.layers) < 300)
     assert_counted(layers, angle=angle)
-    found = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, chosen=chosen)
-    again = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, chosen=chosen)
+    found = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, model=model)
+    again = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, model=model)
     assert abs(found.total[0] + found.absorptance[0] - 1.0) < 1e-12
     assert np.allclose(found.absorbed_by.sum(axis=2), found.absorbed, rtol=1e-12, atol=0.0)
     for each in ("surface", "subsurface", "absorbed", "absorbed_in_melanosomes", "exit_counts"):
@@ -146,7 +146,7 @@ def test_every_stack_gives_numbers(
         index_below=around[1],
         melanin_index=melanin_index,
         scattering_angle=scale,
-        readings=readings({"rayleigh": every}),
+        readings=complete_readings({"rayleigh": every}),
     )
     assert_counted(whole, rays=30, angle=angle)
 
@@ -211,7 +211,7 @@ def test_a_layer_that_no_melanosome_fits_lets_light_pass():
 
 @pytest.mark.parametrize("absorption", [0.0, 1e6])
 def test_absorption_of_the_whole_skin_at_its_limits(absorption):
-    usual = stack(SPECIMENS["S3"], 500.0)
+    usual = Stack.of(SPECIMENS["S3"], 500.0)
     layers = replace(
         usual,
         layers=tuple(

@@ -14,7 +14,7 @@ import pytest
 
 from hylios.commands.shell import chosen_tanning_skin
 from hylios.errors import InputError
-from hylios.skin import skin
+from hylios.skin import Skin
 from hylios.skin.phototypes import phototype
 from hylios.skin.specimen import SPECIMENS
 from hylios.table import (
@@ -41,7 +41,7 @@ COLOURS = replace(TINY, bands=(), profile_error=0.0)
 
 @pytest.fixture(scope="module")
 def tiny():
-    return build(skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7), TINY, seed=1)
+    return build(Skin.of(SPECIMENS["S3"], "intermediate", 2.89, 1.7), TINY, seed=1)
 
 
 @pytest.mark.parametrize(
@@ -50,9 +50,9 @@ def tiny():
 def test_three_axes_span_the_states_that_can_be_reached(name, pigmentation):
     """Schedules and times other than those that chose the axes: 0.015 rms in the logarithm is
     left over three axes, and no state lies far beyond the knots."""
-    made_for = skin(SPECIMENS[name], pigmentation)
-    axes = choose_axes(made_for, (9, 3, 3))
-    states = reachable_states(made_for, 100, seed=99)
+    skin = Skin.of(SPECIMENS[name], pigmentation)
+    axes = choose_axes(skin, (9, 3, 3))
+    states = reachable_states(skin, 100, seed=99)
     coordinates = axes.coordinates(states)
     left = np.log(states / axes.states(coordinates))
     assert np.sqrt((left**2).sum(axis=1).mean()) < 0.015
@@ -63,17 +63,17 @@ def test_three_axes_span_the_states_that_can_be_reached(name, pigmentation):
 
 @pytest.mark.parametrize("knots", [(1,), (2, 2), (7, 3, 1), (9, 3, 2, 2)])
 def test_the_untanned_skin_is_a_knot(knots):
-    made_for = skin(SPECIMENS["S3"])
-    axes = choose_axes(made_for, knots)
+    skin = Skin.of(SPECIMENS["S3"])
+    axes = choose_axes(skin, knots)
     assert axes.shape == knots
-    untanned = untanned_state(made_for)
+    untanned = untanned_state(skin)
     states = axes.knot_states().reshape(-1, 4)
     assert np.abs(states - untanned).max(axis=1).min() < 1e-12
     assert all(np.all(np.diff(each) > 0) for each in axes.knots)
 
 
 def test_reachable_states_are_those_that_the_issue_of_a_tan_can_be():
-    states = reachable_states(skin(SPECIMENS["S3"], "low"), 50, seed=4)
+    states = reachable_states(Skin.of(SPECIMENS["S3"], "low"), 50, seed=4)
     assert states.min() > 0
     assert states[:, :3].sum(axis=1).max() < 2.2
     assert states[:, 3].max() < 1.25 + 1e-9
@@ -198,12 +198,12 @@ def test_a_header_without_what_check_needs_is_refused(tiny, change):
 
 def test_a_header_spells_out_how_its_skin_tans(tiny):
     """The numbers count, not the set's name; without them, as in the first tables, the name."""
-    made_for = skin(
+    skin = Skin.of(
         SPECIMENS["S3"], "low", tanning={"basale_extra_production": 0.05}, untanned="own"
     )
-    table = build(made_for, COLOURS, seed=1)
+    table = build(skin, COLOURS, seed=1)
     again = from_stored(to_stored(table))
-    assert skin_of(again) == made_for
+    assert skin_of(again) == skin
     assert again.provenance["skin"] is None
     assert "scaled by m_i(t)/m_i(0)" in again.provenance["untanned_state"]
     named = {key: each for key, each in tiny.provenance.items() if key != "melanin_dynamics"}
@@ -233,14 +233,14 @@ def test_dynamics_that_are_none_are_refused(change, sentence):
 
 
 def test_a_layer_without_melanin_has_no_axes():
-    made_for = skin(SPECIMENS["S3"], "low", tanning={"basale_transfer": 0.0})
+    skin = Skin.of(SPECIMENS["S3"], "low", tanning={"basale_transfer": 0.0})
     with pytest.raises(InputError, match="melanin without sun is .* more than 0 in each"):
-        choose_axes(made_for, (3, 2))
+        choose_axes(skin, (3, 2))
 
 
 def test_skin_that_makes_no_melanin_varies_in_thickness_alone():
-    made_for = phototype("I").skin
-    axes = choose_axes(made_for, (5, 3, 2))
+    skin = phototype("I").skin
+    axes = choose_axes(skin, (5, 3, 2))
     assert axes.shape == (5, 1, 1)
     assert np.abs(axes.basis[:, 0]) == pytest.approx([0.0, 0.0, 0.0, 1.0], abs=1e-9)
     states = axes.knot_states()
@@ -263,16 +263,16 @@ def test_a_table_of_a_type(tmp_path, asked, name, tanning):
     assert main(["build", *asked.split(), *quick.split()]) == 0
     table = read_table(path)
     assert table.provenance["skin"] == name
-    made_for = skin_of(table)
+    skin = skin_of(table)
     if name is not None:
-        assert made_for == phototype(name).skin
+        assert skin == phototype(name).skin
         assert table.provenance["specimen"] == name
     elif tanning is not None:
-        assert made_for.dynamics == phototype(tanning).skin.dynamics
-        assert made_for.mmd == 7.0
+        assert skin.dynamics == phototype(tanning).skin.dynamics
+        assert skin.mmd == 7.0
         assert table.provenance["specimen"].startswith("III with papillary_blood=1.0")
     else:
-        assert made_for == skin(SPECIMENS["S4"], untanned="own")
+        assert skin == Skin.of(SPECIMENS["S4"], untanned="own")
 
 
 def test_a_types_own_ability_gives_way_to_what_is_set():
@@ -411,7 +411,7 @@ def test_a_table_says_what_was_changed(tmp_path):
     own = tmp_path / "keratin.csv"
     own.write_text("250,0\n2500,0\n")
     arguments = "build --knots 1 --wavelengths 4 --no-profile --set papillary_blood=0.5"
-    arguments += f" --reading floor=mirrored --figure keratin={own} -o {path}"
+    arguments += f" --reading floor=mirrored --own-spectrum keratin={own} -o {path}"
     assert main(arguments.split()) == 0
     made = read_table(path).provenance
     assert made["specimen"] == "S3 with papillary_blood=0.5"

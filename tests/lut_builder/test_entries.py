@@ -10,7 +10,7 @@ from hylios.adding.absorptance import tabulated
 from hylios.adding.spectrum import spectrum as solved
 from hylios.burley import burley_width
 from hylios.quadrature import skin_quadrature
-from hylios.skin import skin
+from hylios.skin import Skin
 from hylios.skin.phototypes import phototype
 from hylios.skin.specimen import SPECIMENS
 from hylios.table import from_stored, read_table, to_stored
@@ -23,7 +23,7 @@ from lut_builder.request import ANGLE
 from lut_builder.schedule import read_schedule
 from lut_builder.settings import PRESETS, Settings
 
-SKIN = skin(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
+SKIN = Skin.of(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
 SMALL = Settings(knots=(3, 2), colour_wavelengths=5, profile_error=0.02, profile_wavelengths=4)
 COLOURS = Settings(knots=(2,), colour_wavelengths=4, bands=(365.0,), profile_error=0.0)
 
@@ -39,7 +39,7 @@ def test_an_entry_is_the_solution_of_its_state(small, place):
     state = small.axes.knot_states()[place]
     few = skin_quadrature(SMALL.colour_wavelengths)
     wavelengths = [*few.wavelengths, *SMALL.bands]
-    direct = solved(SKIN.tanned(state[:3], state[3]), wavelengths, angle=ANGLE)
+    direct = solved(SKIN.at(state), wavelengths, angle=ANGLE)
     expected = {
         "subsurface_colour": few.weights @ direct.subsurface[:-3],
         "total_colour": few.weights @ direct.total[:-3],
@@ -55,9 +55,7 @@ def test_widths_are_those_of_a_random_walk(small):
     place = (2, 1)
     state = small.axes.knot_states()[place]
     few = skin_quadrature(SMALL.profile_wavelengths)
-    alone = walked(
-        SKIN.tanned(state[:3], state[3]), few.wavelengths, angle=ANGLE, rays=250_000, seed=77
-    )
+    alone = walked(SKIN.at(state), few.wavelengths, angle=ANGLE, rays=250_000, seed=77)
     for channel, weights in enumerate(few.weights):
         light = weights @ (alone.exit_counts / alone.rays)
         within = np.cumsum(light) / light.sum()

@@ -35,22 +35,22 @@ def scene(skin, name: str) -> np.ndarray:
     return reached_states(skin, Exposures(hours, skin.mmd * random.uniform(0.5, 5.0, 14)), 60.0)
 
 
-def some(states: np.ndarray, made_for, count: int) -> np.ndarray:
-    tanned = np.abs(np.log(states / untanned_state(made_for))).max(axis=1) > 1e-3
+def some(states: np.ndarray, skin, count: int) -> np.ndarray:
+    tanned = np.abs(np.log(states / untanned_state(skin))).max(axis=1) > 1e-3
     return np.random.default_rng(3).choice(states[tanned], count, replace=False)
 
 
-def colours(made_for, states: np.ndarray) -> np.ndarray:
+def colours(skin, states: np.ndarray) -> np.ndarray:
     """From the wavelengths of `COLOURS`: what a table differs by is its interpolation's error."""
     few = skin_quadrature(COLOURS.colour_wavelengths)
-    specimens = [made_for.tanned(state[:3], state[3]) for state in states]
+    specimens = [skin.at(state) for state in states]
     found = spectra(specimens, few.wavelengths, angle=ANGLE, nodes=COLOURS.nodes)
     return (found.surface + found.subsurface) @ few.weights.T
 
 
 @pytest.fixture(scope="module")
 def whole():
-    return {name: build(made_for, COLOURS) for name, made_for in SKINS.items()}
+    return {name: build(skin, COLOURS) for name, skin in SKINS.items()}
 
 
 CASES = [
@@ -79,13 +79,13 @@ MORE_CASES = [
 def test_a_scene_s_table_is_as_near_the_model_of_fewer_states(
     whole, name, sun, interpolation, most
 ):
-    made_for, settings = SKINS[name], replace(COLOURS, interpolation=interpolation)
-    reached = scene(made_for, sun)
-    part = build(made_for, settings, reached=reached)
+    skin, settings = SKINS[name], replace(COLOURS, interpolation=interpolation)
+    reached = scene(skin, sun)
+    part = build(skin, settings, reached=reached)
     full = replace(whole[name], interpolation=interpolation)
     assert part.provenance["states_computed"] <= most * full.provenance["states_computed"]
-    states = some(reached, made_for, 60)
-    expected = colours(made_for, states)
+    states = some(reached, skin, 60)
+    expected = colours(skin, states)
     own, other = (difference(each.plane("total_colour", states), expected) for each in (part, full))
     assert own.mean() < other.mean()
     assert own.max() < other.max()
@@ -97,10 +97,10 @@ def test_a_scene_s_table_is_as_near_the_model_of_fewer_states(
 def test_a_scene_s_knots(knots, sun):
     """The untanned skin is one; none is farther from the next than a quarter more than in the
     whole table; and their states have the knots' coordinates."""
-    made_for = SKINS["III"]
-    full, reached = choose_axes(made_for, knots), scene(made_for, sun)
+    skin = SKINS["III"]
+    full, reached = choose_axes(skin, knots), scene(skin, sun)
     axes, states = laid_over(full, reached)
-    assert np.abs(states.reshape(-1, 4) - untanned_state(made_for)).max(axis=1).min() < 1e-12
+    assert np.abs(states.reshape(-1, 4) - untanned_state(skin)).max(axis=1).min() < 1e-12
     assert states.size <= full.knot_states().size
     assert axes.basis.T @ axes.basis == pytest.approx(np.eye(len(axes.knots)), abs=1e-12)
     several = [each for each in full.knots if len(each) > 1]
@@ -114,8 +114,8 @@ def test_a_scene_s_knots(knots, sun):
 @pytest.mark.parametrize("sun", ["once", "a week"])
 def test_a_lookup_along_a_scene_s_axes_finds_what_lies_off_them(sun):
     """Nearly enough to leave an axis out; the states in the plane of the axes are farther."""
-    made_for = SKINS["III"]
-    full, reached = choose_axes(made_for, COLOURS.knots), scene(made_for, sun)
+    skin = SKINS["III"]
+    full, reached = choose_axes(skin, COLOURS.knots), scene(skin, sun)
     axes, states = laid_over(full, reached)
     assert len(axes.knots) == 3
     far = farthest(axes, states, reached, "linear") - NEAR
@@ -126,12 +126,12 @@ def test_a_lookup_along_a_scene_s_axes_finds_what_lies_off_them(sun):
 @pytest.mark.parametrize("interpolation", ["linear", "pchip"])
 def test_all_that_a_lookup_where_the_sun_leads_reads_is_computed(interpolation):
     """And with the linear table's knots, one less is too few."""
-    made_for, reached = SKINS["III"], scene(SKINS["III"], "once")
-    request = requested(made_for, replace(COLOURS, interpolation=interpolation), reached=reached)
+    skin, reached = SKINS["III"], scene(SKINS["III"], "once")
+    request = requested(skin, replace(COLOURS, interpolation=interpolation), reached=reached)
     count = len(request.states)
     assert 0 < count == request.needed.sum()
     assert sum(each.last - each.first for each in pieces(request)) == count
-    table = build(made_for, replace(COLOURS, interpolation=interpolation), reached=reached)
+    table = build(skin, replace(COLOURS, interpolation=interpolation), reached=reached)
     random = np.random.default_rng(1)
     noise = random.random((*request.needed.shape, 3))
     expected = table.plane("total_colour", reached)
@@ -153,14 +153,14 @@ def test_all_that_a_lookup_where_the_sun_leads_reads_is_computed(interpolation):
 def test_a_scene_s_table_holds_no_more_than_it_should():
     """Of the states of other suns it holds some: these are as near the model as its own are, and
     the rest it says it does not hold, be they beyond its knots, off its axes or not computed."""
-    made_for = SKINS["III"]
-    reached = scene(made_for, "a week")
-    table = from_stored(to_stored(build(made_for, COLOURS, reached=reached), half=True))
+    skin = SKINS["III"]
+    reached = scene(skin, "a week")
+    table = from_stored(to_stored(build(skin, COLOURS, reached=reached), half=True))
     assert table.holds(reached).all()
-    others = some(reachable_states(made_for, 60, seed=8), made_for, 400)
+    others = some(reachable_states(skin, 60, seed=8), skin, 400)
     held = table.holds(others)
     assert 0.02 < held.mean() < 0.6
-    off = difference(table.plane("total_colour", others), colours(made_for, others))
+    off = difference(table.plane("total_colour", others), colours(skin, others))
     assert off[held].max() < 0.2 and off[~held].max() > 1.0
     for shape in ((), (2, 3)):
         assert table.holds(np.broadcast_to(reached[0], (*shape, 4))).shape == shape
@@ -178,31 +178,31 @@ def test_a_table_for_any_sun_holds_all(whole):
 
 @pytest.mark.parametrize("name", ["I", "III"])
 def test_a_scene_without_sun_is_one_state(name, tmp_path):
-    made_for = SKINS[name]
-    reached = reached_states(made_for, NO_SUN, 30.0)
-    table = from_stored(to_stored(build(made_for, COLOURS, reached=reached)))
+    skin = SKINS[name]
+    reached = reached_states(skin, NO_SUN, 30.0)
+    table = from_stored(to_stored(build(skin, COLOURS, reached=reached)))
     assert (table.axes.shape, table.provenance["states_computed"]) == ((1,), 1)
-    untanned = untanned_state(made_for)
+    untanned = untanned_state(skin)
     assert table.holds(untanned) and not table.holds(untanned * 1.05)
     found = table.plane("total_colour", untanned[None])
-    assert found == pytest.approx(colours(made_for, untanned[None]), abs=1e-6)
+    assert found == pytest.approx(colours(skin, untanned[None]), abs=1e-6)
 
 
 def test_a_scene_of_skin_that_makes_no_melanin_in_the_sun(whole):
     """It thickens only: one axis, and no sheet to lie on."""
-    made_for = SKINS["I"]
-    reached = scene(made_for, "two months")
-    table = build(made_for, COLOURS, reached=reached)
+    skin = SKINS["I"]
+    reached = scene(skin, "two months")
+    table = build(skin, COLOURS, reached=reached)
     assert len(table.axes.shape) == 1 and table.holds(reached).all()
-    states = some(reached, made_for, 20)
+    states = some(reached, skin, 20)
     assert table.plane("total_colour", states) == pytest.approx(
         whole["I"].plane("total_colour", states), abs=2e-4
     )
 
 
 def test_a_scene_beyond_what_the_whole_table_spans_is_spanned():
-    made_for = SKINS["III"]
-    full, usual = choose_axes(made_for, COLOURS.knots), scene(SKINS["III"], "a week")
+    skin = SKINS["III"]
+    full, usual = choose_axes(skin, COLOURS.knots), scene(SKINS["III"], "a week")
     reached = full.untanned * (usual / full.untanned) ** 1.5
     axes, _ = laid_over(full, reached)
     highest = axes.coordinates(reached)[:, 0].max()

@@ -12,7 +12,7 @@ from matplotlib.image import imread
 
 from hylios.errors import InputError
 from hylios.lab.colour import difference, rec709_weights
-from hylios.skin import skin
+from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS
 from hylios.table import read_table
 from lut_builder.assemble import build
@@ -44,7 +44,7 @@ from lut_builder.trade.pareto import (
 )
 from lut_builder.trade.trade import BROAD, QUICK, completed, measure, noise_share
 
-S3 = skin(SPECIMENS["S3"])
+S3 = Skin.of(SPECIMENS["S3"])
 
 
 def point(seconds, error, **made):

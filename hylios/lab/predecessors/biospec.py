@@ -27,8 +27,8 @@ import numpy as np
 from numba import njit
 
 from hylios.errors import InputError, require_range, require_whole
-from hylios.spectra import figures
-from hylios.tissue import BETA_CAROTENE_WEIGHT, BILIRUBIN_WEIGHT, HEMOGLOBIN_WEIGHT
+from hylios.spectra import published_spectra
+from hylios.tissue.absorbers import BETA_CAROTENE_WEIGHT, BILIRUBIN_WEIGHT, HEMOGLOBIN_WEIGHT
 from hylios.transport.compiling import kernel
 from hylios.transport.generator import stream, uniform
 from hylios.transport.interfaces import meet_interface
@@ -161,7 +161,7 @@ def absorption(parameters: Parameters, wavelength: float) -> np.ndarray:
     Melanin counts with the melanosomes' volume and carotene with the rest of the epidermis;
     blood counts with its volume and carotene with the whole dermis.
     """
-    known = {name: figure.at(wavelength) for name, figure in figures().items()}
+    known = {name: figure.at(wavelength) for name, figure in published_spectra().items()}
     carotene = known["beta_carotene"] / BETA_CAROTENE_WEIGHT
     oxygenated = 0.01 * parameters.oxygenated
     haemoglobin = (

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.special import j0
 
 from hylios.errors import InputError, require_range
-from hylios.spectra import figures
+from hylios.spectra import published_spectra
 from hylios.tissue import Layer, Stack
 
 EPIDERMIS_THICKNESS = 0.25
@@ -112,7 +112,7 @@ def media(parameters: Parameters, wavelengths: Iterable[float] | float) -> tuple
     length = np.atleast_1d(np.asarray(wavelengths, dtype=float))
     for each in length:
         require_range("wavelength", each, 380.0, 780.0, "nm")
-    known = figures()
+    known = published_spectra()
     eumelanin = 6.6e10 * length**-3.33
     pheomelanin = 2.9e14 * length**-4.75
     baseline = 0.0244 + 8.53 * np.exp(-(length - 154.0) / 66.2)

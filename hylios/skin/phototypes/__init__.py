@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.skin.skin import Skin, skin
+from hylios.skin.skin import Skin
 from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, specimen_of
 
 PHOTOTYPES = ("I", "II", "III", "IV", "V", "VI")
@@ -85,10 +85,10 @@ def phototype(name: str) -> Phototype:
     misfit = {key: fitted.pop(key) for key in ("rmse", "ciede2000")}
     begun = start(name)
     more = 0.01 * fitted.pop("melanin") / begun.pigmentation
-    melanin = {each: more * getattr(begun, each) for each in _MELANIN}
+    melanin = {field: more * getattr(begun, field) for field in _MELANIN}
     tanning = MappingProxyType(decided.get("tanning", {}))
     return Phototype(
-        skin=skin(
+        skin=Skin.of(
             specimen_of({**asdict(begun), **melanin, **fitted}),
             decided["pigmentation"],
             tanning=tanning,
@@ -106,17 +106,15 @@ def start(name: str) -> Specimen:
     common, decided = dict(types["start"]), types[name]
     usual = SPECIMENS[common.pop("base")]
     values = {**asdict(usual), **common, **decided.get("specimen", {}), "name": name}
-    made_for = skin(
-        specimen_of(values), decided["pigmentation"], tanning=decided.get("tanning", {})
-    )
-    return made_for.tanned(made_for.untanned_melanin, 1.0)
+    skin = Skin.of(specimen_of(values), decided["pigmentation"], tanning=decided.get("tanning", {}))
+    return skin.at(skin.untanned_state)
 
 
 def people(name: str) -> People:
     """The people whose inner arms stand for a type."""
     text = (files(__name__) / "inner_arm.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
-    (row,) = (each for each in rows if each["class"] == _read("types.toml")[name]["people"])
+    (row,) = (people for people in rows if people["class"] == _read("types.toml")[name]["people"])
     columns = [column for column in row if column.startswith("R")]
     return People(
         name=row["class"],

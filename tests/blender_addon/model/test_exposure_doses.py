@@ -67,7 +67,7 @@ def test_thin_sunscreen_lets_through_the_root():
     [
         ({"day": -1.0}, "day of an exposure is -1"),
         ({"unit": "SUN", "month": 2, "day_of_month": 30}, "day of the month is 30, which month 2"),
-        ({"unit": "SUN", "from_hour": 15.0}, "sun is asked for from 15 to 13.5 h"),
+        ({"unit": "SUN", "from_hour": 15.0}, "sun is given from 15 to 13.5 h"),
         ({"sunscreen": True, "spf": 0.5}, "SPF is 0.5; allowed is 1 to"),
         ({"dose": 1e308}, "dose of an exposure is 1e\\+308 SED; allowed is 0 to"),
         ({"dose": float("nan")}, "dose of an exposure is nan SED"),

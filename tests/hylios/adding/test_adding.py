@@ -17,7 +17,7 @@ from hylios.adding import spectrum as spectrum_without_noise
 from hylios.adding.survival import survival_in_melanosome
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.tissue import Layer, Stack, stack
+from hylios.tissue import Layer, Model, Stack
 from hylios.transport.interfaces import fresnel
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import with_survival
@@ -30,7 +30,7 @@ OWN_ERROR = 0.0005
 
 
 def stacks(specimen, wavelengths=WAVELENGTHS, **arguments):
-    return [with_survival(stack(specimen, each, **arguments)) for each in wavelengths]
+    return [with_survival(Stack.of(specimen, each, **arguments)) for each in wavelengths]
 
 
 ARRANGEMENTS = ("individual", "complexes", "compact_complexes")
@@ -47,7 +47,7 @@ def clear_stacks(name, arrangements):
     for arrangement in arrangements:
         specimen = replace(SPECIMENS[name], melanosome_arrangement=arrangement)
         for wavelength in WAVELENGTHS[1::3]:
-            usual = stack(specimen, wavelength)
+            usual = Stack.of(specimen, wavelength)
             for roughness in (usual.roughness, 0.0):
                 surfaced = replace(usual, roughness=roughness)
                 made.append(without_absorbers(surfaced))
@@ -195,9 +195,9 @@ READINGS = [
 @pytest.mark.parametrize(("name", "choice"), READINGS)
 def test_other_readings_agree_with_the_walk_too(name, choice):
     """Chi squared with 3 degrees: a correct solver fails one of nine with 1 seed in 1,100."""
-    wavelengths, rays, chosen = [400.0, 550.0, 900.0], 20_000, {name: choice}
-    walked = spectrum(SPECIMENS["S3"], wavelengths, rays=rays, chosen=chosen).total
-    found = solve(stacks(SPECIMENS["S3"], wavelengths, chosen=chosen)).total
+    wavelengths, rays, model = [400.0, 550.0, 900.0], 20_000, Model(readings={name: choice})
+    walked = spectrum(SPECIMENS["S3"], wavelengths, rays=rays, model=model).total
+    found = solve(stacks(SPECIMENS["S3"], wavelengths, model=model)).total
     variance = walked * (1.0 - walked) / rays + OWN_ERROR**2
     assert ((found - walked) ** 2 / variance).sum() < 21.1
 
@@ -251,7 +251,7 @@ def test_seldom_met_melanosomes_absorb_at_their_rate():
 def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part, survival):
     """One layer alone, straight light: what the walk's slab lets through, within 4 standard errors
     and .5 % of its extinction, which `hylios.adding.melanosomes` gives as its own error."""
-    layer = replace(stack(SPECIMENS[name], 550.0).layers[part], absorption=0.0)
+    layer = replace(Stack.of(SPECIMENS[name], 550.0).layers[part], absorption=0.0)
 
     def off(exponent):
         inside = replace(layer, melanin_absorption=np.exp(exponent))
@@ -281,7 +281,7 @@ def test_tabulated_survival_is_the_simulated_one():
     """Light absorbed in one melanosome within .6 %: 4 standard errors of the simulated one."""
     for name in SPECIMENS:
         for plain, known in zip(
-            [stack(SPECIMENS[name], each) for each in WAVELENGTHS],
+            [Stack.of(SPECIMENS[name], each) for each in WAVELENGTHS],
             stacks(SPECIMENS[name]),
             strict=True,
         ):
@@ -300,7 +300,7 @@ def test_the_table_keeps_the_moments_of_what_it_is_made_from():
 
 
 def test_survival_falls_smoothly_from_1():
-    layer = stack(SPECIMENS["S3"], 550.0).layers[3]
+    layer = Stack.of(SPECIMENS["S3"], 550.0).layers[3]
     found = [
         survival_in_melanosome(replace(layer, melanin_absorption=each), 1.7)
         for each in (0.0, *np.geomspace(1.0, 1e9, 60))
@@ -374,8 +374,11 @@ def test_nodes_beyond_the_default_change_little():
         ({"angle": ((8.0,),)}, "angles have shape (1, 1)"),
         ({"nodes": 5}, "number of nodes is 5; allowed is 6 to 200."),
         ({"wavelengths": []}, "wavelengths are no list of numbers"),
-        ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the figure"),
-        ({"chosen": {"melanosome_entry": "refracted"}}, "reading melanosome_entry is 'refracted'"),
+        ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the spectrum"),
+        (
+            {"model": Model(readings={"melanosome_entry": "refracted"})},
+            "reading melanosome_entry is 'refracted'",
+        ),
     ],
 )
 def test_bad_input_is_named(arguments, sentence):

@@ -10,21 +10,21 @@ import pytest
 from hylios.adding import colours, spectrum
 from hylios.errors import InputError
 from hylios.lab import colour
-from hylios.skin import skin
+from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS, with_values
 from hylios.threads import controls, one_thread
 
-S3 = skin(SPECIMENS["S3"])
+S3 = Skin.of(SPECIMENS["S3"])
 STATES = np.array([[*S3.untanned_melanin * more, 1.0 + 0.1 * more] for more in (1.0, 1.5, 2.5)])
 WHOLE = np.arange(360.0, 781.0, 5.0)
 
 
 @pytest.mark.parametrize("name", ["S1", "S3", "S4"])
 def test_colours_of_few_wavelengths_are_those_of_whole_spectra(name):
-    made_for = skin(SPECIMENS[name])
-    found = colours(made_for, STATES, bands=[365.0, 1650.0])
+    skin = Skin.of(SPECIMENS[name])
+    found = colours(skin, STATES, bands=[365.0, 1650.0])
     for row, state in enumerate(STATES):
-        tanned = made_for.tanned(state[:3], state[3])
+        tanned = skin.at(state)
         whole = spectrum(tanned, WHOLE)
         weights = colour.rec709_weights(WHOLE)
         assert colour.difference(weights @ whole.total, found.total[row]) < 0.05
@@ -57,7 +57,7 @@ def test_skin_without_absorbers_is_white():
     }
     kept = {"oxygenated_blood": SPECIMENS["S3"].oxygenated_blood}
     clear = with_values(SPECIMENS["S3"], {**none, **kept}, allow_unphysical=True)
-    found = colours(skin(clear), STATES, bands=[365.0])
+    found = colours(Skin.of(clear), STATES, bands=[365.0])
     assert np.abs(found.total - 1.0).max() < 1e-9
     assert np.abs(found.bands - 1.0).max() < 1e-9
     assert np.all(found.subsurface < 0.98)

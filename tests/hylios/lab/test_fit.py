@@ -13,7 +13,7 @@ from hylios.lab.fit import GROUPS, USUAL, fit_colour, fit_spectrum, scaled
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import SPECIMENS, parameters
 from hylios.skin.specimen_file import read_specimen
-from hylios.tissue import stack
+from hylios.tissue import Stack
 from hylios.transport.survival import with_survival
 
 S3 = SPECIMENS["S3"]
@@ -21,7 +21,7 @@ VISIBLE = np.arange(400.0, 701.0, 20.0)
 
 
 def light(specimen, wavelengths=VISIBLE):
-    return solve([with_survival(stack(specimen, each)) for each in wavelengths]).total
+    return solve([with_survival(Stack.of(specimen, each)) for each in wavelengths]).total
 
 
 def test_what_made_a_spectrum_is_found_again():

@@ -10,6 +10,7 @@ from scipy.special import expn
 from hylios.errors import InputError
 from hylios.lab.predecessors import biospec, donner_jensen
 from hylios.lab.predecessors.donner_jensen import Medium
+from hylios.spectra import published_spectra
 from hylios.tissue import Layer, Stack
 from hylios.transport.generator import stream
 from hylios.transport.simulate import trace
@@ -248,8 +249,8 @@ def test_biospec_scattering_angles_keep_the_measured_shares():
 
 
 def test_biospec_absorption_by_hand():
-    """550 nm, from figures.csv and the program's formulas."""
-    known = {name: each.at(550.0) for name, each in biospec.figures().items()}
+    """550 nm, from spectra.csv and the program's formulas."""
+    known = {name: spectrum.at(550.0) for name, spectrum in published_spectra().items()}
     melanin = 0.019 * (80.0 * known["eumelanin"] + 12.0 * known["pheomelanin"])
     carotene = known["beta_carotene"] / 537.0
     blood = 0.75 * known["oxyhemoglobin"] + 0.25 * known["deoxyhemoglobin"]

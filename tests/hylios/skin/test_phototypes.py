@@ -45,7 +45,7 @@ def largest_change(skin: Skin, history: TanningHistory, index: int = 0) -> float
     """Largest CIEDE2000 from the untanned skin, looked at every second day of 30."""
     days = 24 * np.arange(2, 31, 2)
     states = history.states[index][days]
-    tans = np.array([seen(skin.tanned(state[:3], state[3])) for state in states])
+    tans = np.array([seen(skin.at(state)) for state in states])
     return float(difference(tans, seen(skin.specimen)).max())
 
 
@@ -107,7 +107,7 @@ def test_a_type_without_sun_is_its_specimen(name):
     """5.16 as printed, at the steady state of the type's dynamics."""
     skin = phototype(name).skin
     steady = skin.dynamics.steady_state()
-    bare = skin.tanned(steady / steady.sum(), 1.0)
+    bare = skin.at([*(steady / steady.sum()), 1.0])
     for each in fields(Specimen):
         value = getattr(skin.specimen, each.name)
         expected = value if isinstance(value, str) else pytest.approx(value, rel=1e-12)
@@ -184,8 +184,8 @@ def test_reflectance_in_the_ultraviolet_converges_with_melanin():
         history = after(skin, 5.0 * skin.mmd)
         state = history.states[0][history.total[0].argmax()]
         untanned.append(spectrum(skin.specimen, ULTRAVIOLET).total)
-        tans.append(spectrum(skin.tanned(state[:3], state[3]), ULTRAVIOLET).total)
-        more = [skin.tanned(each * skin.untanned_melanin, 1.0) for each in (1.0, 2.0, 3.0)]
+        tans.append(spectrum(skin.at(state), ULTRAVIOLET).total)
+        more = [skin.at([*(factor * skin.untanned_melanin), 1.0]) for factor in (1.0, 2.0, 3.0)]
         steps.append(np.abs(np.diff([spectrum(each, ULTRAVIOLET).total for each in more], axis=0)))
     assert np.all(np.ptp(tans, axis=0) < 0.65 * np.ptp(untanned, axis=0))
     first, second = np.mean(steps, axis=-1).T
@@ -205,7 +205,7 @@ def test_no_tan_of_a_type_overfills_a_layer(name):
         med=skin.med,
         hours=24 * DAYS,
     )
-    assert not any(skin.overfull(state[:3], state[3]) for state in history.states)
+    assert not any(skin.overfull(state) for state in history.states)
     assert history.total.max() < 2.6
 
 
@@ -215,9 +215,9 @@ def test_the_thesis_ability_all_but_fills_the_granulosum_of_type_4():
     able = replace(usual, dynamics=varied(usual.dynamics, {"basale_extra_production": 0.0858}))
     history = after(able, SED)
     assert history.total.max() == pytest.approx(7.2, abs=0.1)
-    held = [able.tanned(state[:3], state[3]).melanin for state in history.states[0]]
+    held = [able.at(state).melanin for state in history.states[0]]
     assert np.max(held, axis=0) == pytest.approx([0.36, 0.50, 0.93], abs=0.01)
-    assert not any(able.overfull(state[:3], state[3]) for state in history.states[0])
+    assert not any(able.overfull(state) for state in history.states[0])
 
 
 def assert_fitted_as_the_file_says(name):

@@ -19,8 +19,7 @@ from hylios.skin.specimen import (
     specimen_of,
     with_values,
 )
-from hylios.spectra import figures
-from hylios.tissue import stack
+from hylios.tissue import Stack
 from hylios.transport.simulate import spectrum
 
 S3 = SPECIMENS["S3"]
@@ -139,7 +138,7 @@ def consistent(values, most_melanin):
 
 
 def layer_numbers(specimen, wavelength):
-    layers = stack(specimen, wavelength, known=figures()).layers
+    layers = Stack.of(specimen, wavelength).layers
     given = [{**asdict(layer), "longest_path": 0.0} for layer in layers]  # infinite until tabulated
     return np.array([list(each.values()) for each in given])
 
@@ -196,6 +195,6 @@ def test_melanosomes_that_would_keep_a_ray_for_ever_are_refused():
         "basale_thickness": 1.0,
     }
     with pytest.raises(InputError, match="basale_thickness is 1 cm, where a ray would meet"):
-        stack(with_values(S3, clear, allow_unphysical=True), 1000.0)
+        Stack.of(with_values(S3, clear, allow_unphysical=True), 1000.0)
     usual = {"basale_melanosomes": 60.0, "basale_thickness": 0.33}
-    assert stack(with_values(S3, usual, allow_unphysical=True), 1000.0)
+    assert Stack.of(with_values(S3, usual, allow_unphysical=True), 1000.0)

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hylios.errors import InputError
-from hylios.skin import UNTANNED, skin, varied
+from hylios.skin import UNTANNED, Skin, varied
 from hylios.skin.phototypes import specimens
 from hylios.skin.specimen import SPECIMENS, overfull, tanned
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.tanning import PIGMENTATIONS, Exposures, simulate, states_at
 
 NAMES = list(specimens())
 RELATIVE = st.floats(0.0, 1e3)
@@ -21,13 +21,14 @@ RELATIVE = st.floats(0.0, 1e3)
 def test_a_specimens_own_distribution_is_kept_where_asked(name):
     """m_i(t)/m_i(0) times the specimen's own melanin, by hand; itself at the start."""
     usual = SPECIMENS[name]
-    made_for = skin(usual, untanned="own")
-    start, state = made_for.untanned_melanin, np.array([0.9, 0.6, 0.2])
-    assert made_for.tanned(start, 1.0).melanin == pytest.approx(usual.melanin, abs=1e-15)
+    skin = Skin.of(usual, untanned="own")
+    start, melanin = skin.untanned_melanin, np.array([0.9, 0.6, 0.2])
+    assert skin.at(skin.untanned_state).melanin == pytest.approx(usual.melanin, abs=1e-15)
     if name != "S1":  # its layers are alike; others lie apart from their set's steady state
-        assert skin(usual).tanned(start, 1.0).melanin != pytest.approx(usual.melanin, rel=0.1)
-    changed = made_for.tanned(state, 1.1)
-    assert changed.melanin == pytest.approx(usual.melanin * state / start / 1.1)
+        untanned = Skin.of(usual).at(skin.untanned_state)
+        assert untanned.melanin != pytest.approx(usual.melanin, rel=0.1)
+    changed = skin.at([*melanin, 1.1])
+    assert changed.melanin == pytest.approx(usual.melanin * melanin / start / 1.1)
     assert changed.basale_thickness == pytest.approx(1.1 * usual.basale_thickness)
 
 
@@ -38,9 +39,7 @@ def test_skin_without_melanin_stays_without():
         **{f"{layer}_colloidal_melanin": 0.0 for layer in ("basale", "spinosum", "granulosum")},
     )
     for untanned in UNTANNED:
-        assert (
-            not skin(bare, untanned=untanned).tanned(np.array([3.0, 2.0, 1.0]), 1.0).melanin.any()
-        )
+        assert not Skin.of(bare, untanned=untanned).at([3.0, 2.0, 1.0, 1.0]).melanin.any()
 
 
 @settings(max_examples=200, deadline=None)
@@ -54,15 +53,15 @@ def test_melanin_never_overfills_a_layer_and_never_falls_with_more(
     name, melanin, thickness, untanned
 ):
     """What would not fit is cut: content is the least of 1 and what the state asks for."""
-    made_for = skin(specimens()[name], untanned=untanned)
+    skin = Skin.of(specimens()[name], untanned=untanned)
     melanin = np.array(melanin)
-    held = made_for.tanned(melanin, thickness).melanin
+    held = skin.at([*melanin, thickness]).melanin
     assert held.max() <= 1.0
-    more = made_for.tanned(1.1 * melanin, thickness).melanin
+    more = skin.at([*(1.1 * melanin), thickness]).melanin
     assert np.all(more >= held)
     # Where nothing is cut, the content is proportional to the state's melanin.
-    if not made_for.overfull(melanin, thickness):
-        half = made_for.tanned(0.5 * melanin, thickness).melanin
+    if not skin.overfull([*melanin, thickness]):
+        half = skin.at([*(0.5 * melanin), thickness]).melanin
         assert half == pytest.approx(0.5 * held, rel=1e-9, abs=1e-300)
     else:
         assert held.max() == 1.0
@@ -124,22 +123,41 @@ def test_every_rate_can_be_varied_by_name():
 )
 def test_bad_skins_are_refused(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
-        skin(SPECIMENS["S3"], **arguments)
+        Skin.of(SPECIMENS["S3"], **arguments)
 
 
 def test_minimal_doses_are_those_of_the_ends_beyond_the_range_of_3_1_and_3_2():
     bare = {f"{layer}_colloidal_melanin": 0.0 for layer in ("basale", "spinosum", "granulosum")}
     full = {layer: 60.0 for layer in bare}
     for values, level in ((bare, 0.013), (full, 0.43)):
-        made_for = skin(replace(SPECIMENS["S3"], basale_melanosomes=0.0, **values))
-        assert made_for.mmd == pytest.approx(4.3132 * np.exp(5.1295 * level))
-        assert made_for.med == pytest.approx(2.1973 * np.exp(7.4043 * level))
+        skin = Skin.of(replace(SPECIMENS["S3"], basale_melanosomes=0.0, **values))
+        assert skin.mmd == pytest.approx(4.3132 * np.exp(5.1295 * level))
+        assert skin.med == pytest.approx(2.1973 * np.exp(7.4043 * level))
 
 
 def test_what_overfills_is_told_by_the_distribution_that_is_kept():
     """All melanin in the basale of its own: a state that overfills 5.16's granulosum does not."""
     usual = SPECIMENS["S3"]
     bare = replace(usual, granulosum_colloidal_melanin=0.0, spinosum_colloidal_melanin=0.0)
-    state = np.array([0.5, 0.5, 100.0])
-    assert skin(bare).overfull(state, 1.0)
-    assert not skin(bare, untanned="own").overfull(state, 1.0)
+    state = np.array([0.5, 0.5, 100.0, 1.0])
+    assert Skin.of(bare).overfull(state)
+    assert not Skin.of(bare, untanned="own").overfull(state)
+
+
+def test_a_skin_knows_its_doses():
+    """`states` and `history` are the tanning model's with the skin's own dynamics and doses."""
+    skin = Skin.of(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
+    sun, times = Exposures([0], [30.0]), [0.0, 24.0, 240.0]
+    doses = {"mmd": 2.89, "med": 1.7}
+    expected = states_at(sun, PIGMENTATIONS["intermediate"], times=times, **doses)
+    assert np.array_equal(skin.states(sun, times), expected)
+    assert np.array_equal(skin.history(sun, 240).states[[0, 24, 240]], expected)
+    assert np.array_equal(skin.states(sun, [0.0])[0], skin.untanned_state)
+    melanin, thickness = expected[2, :3], expected[2, 3]
+    assert skin.at(expected[2]) == tanned(SPECIMENS["S3"], melanin, thickness)
+
+
+@pytest.mark.parametrize("state", [np.ones(3), np.ones((2, 4)), "tanned"])
+def test_a_state_is_four_numbers(state):
+    with pytest.raises(InputError, match="tanning state"):
+        Skin.of(SPECIMENS["S3"]).at(state)

@@ -1,4 +1,4 @@
-"""Specimens, their tissue and the spectral figures against the thesis's printed numbers."""
+"""Specimens, their tissue and the published spectra against the thesis's printed numbers."""
 
 import csv
 import io
@@ -10,15 +10,11 @@ import pytest
 from hylios.errors import InputError
 from hylios.skin.phototypes import named_specimen
 from hylios.skin.specimen import SPECIMENS, overfull, parameters, with_values
-from hylios.spectra import estimates_within, figures, replaced
-from hylios.tissue import (
-    blood_coefficient,
-    encounter_coefficient,
-    rayleigh_coefficient,
-    refractive_index,
-    scattering_angle,
-    stack,
-)
+from hylios.spectra import estimates_within, published_spectra, with_own_spectrum
+from hylios.tissue import Model, Stack
+from hylios.tissue.absorbers import blood_absorbers
+from hylios.tissue.layers import rayleigh_coefficient, refractive_index
+from hylios.tissue.melanosomes import encounter_coefficient, scattering_angle
 
 TABLE_6_1 = """
 surface_fold_aspect_ratio    0.1     0.25    0.1     0.45
@@ -96,12 +92,11 @@ def test_arrangement_of_melanosomes():
 
 
 def test_refractive_indices_are_those_of_table_6_2_at_1300_nm_and_follow_water():
-    known = figures()
-    s3 = SPECIMENS["S3"]
-    assert refractive_index(s3, "corneum", 1300.0, known) == pytest.approx(1.55)
+    model, s3 = Model(), SPECIMENS["S3"]
+    assert refractive_index(s3, "corneum", 1300.0, model) == pytest.approx(1.55)
     # Gladstone and Dale: 0.6 of water, whose index falls from 1.3355 to 1.3159 on the way
-    rise = refractive_index(s3, "epidermis", 550.0, known) - 1.4
-    water = known["water_refractive_index"]
+    rise = refractive_index(s3, "epidermis", 550.0, model) - 1.4
+    water = model.spectra["water_refractive_index"]
     assert rise == pytest.approx(0.6 * (water.at(550.0) - water.at(1300.0)))
     assert 0.005 < rise < 0.02
 
@@ -126,13 +121,13 @@ def test_encounter_coefficients():
 
 def test_blood_by_hand():
     """A.2 at 500 nm: 75 % of 147 g/L as oxyhemoglobin, 66500 g/mol, and the rest."""
-    known = figures()
-    molar = {name: float(known[name].at(500.0)) for name in known}
+    molar = {name: float(each.at(500.0)) for name, each in published_spectra().items()}
     blood = 147.0 * (0.75 * molar["oxyhemoglobin"] + 0.25 * molar["deoxyhemoglobin"])
     blood += 1.5 * (molar["carboxyhemoglobin"] + molar["methemoglobin"])
     expected = np.log(10) * blood / 66500.0
     expected += np.log(10) * (molar["beta_carotene"] * 7e-5 / 537 + molar["bilirubin"] * 3e-3 / 585)
-    assert blood_coefficient(SPECIMENS["S3"], 500.0, known) == pytest.approx(expected)
+    absorbers = blood_absorbers(SPECIMENS["S3"], 500.0, Model())
+    assert sum(absorbers.values()) == pytest.approx(expected)
 
 
 def test_scattering_angle_fades_from_780_to_1300_nm():
@@ -141,50 +136,49 @@ def test_scattering_angle_fades_from_780_to_1300_nm():
 
 
 def test_melanosomes_shrink_upwards_and_complexes_are_twice_the_major_axis():
-    layers = stack(SPECIMENS["S1"], 500.0).layers[1:4]
+    layers = Stack.of(SPECIMENS["S1"], 500.0).layers[1:4]
     assert [each.complex_radius for each in layers] == pytest.approx(
         [0.25 * 0.41e-4, 0.5 * 0.41e-4, 0.41e-4]
     )
-    single = stack(SPECIMENS["S4"], 500.0).layers[3]
+    single = Stack.of(SPECIMENS["S4"], 500.0).layers[3]
     assert (single.semi_minor, single.semi_major) == pytest.approx((0.14e-4, 0.345e-4))
     assert single.complex_radius == 0.0
 
 
-def test_figures_cover_the_model_and_name_their_sources():
-    known = figures()
-    assert len(known) == 17
-    for figure in known.values():
-        assert figure.source
-        assert figure.unit
-        assert (figure.wavelengths[0], figure.wavelengths[-1]) == (250.0, 2500.0)
-        assert np.all(figure.values >= 0)
+def test_spectra_cover_the_model_and_name_their_sources():
+    assert len(published_spectra()) == 17
+    for spectrum in published_spectra().values():
+        assert spectrum.source
+        assert spectrum.unit
+        assert (spectrum.wavelengths[0], spectrum.wavelengths[-1]) == (250.0, 2500.0)
+        assert np.all(spectrum.values >= 0)
 
 
 def test_estimates_stay_marked():
-    lines = estimates_within(figures(), figures(), np.array([1700.0]))
+    lines = estimates_within(published_spectra(), published_spectra(), np.array([1700.0]))
     assert any(line.startswith("lipids") and "ESTIMATE" in line for line in lines)
     assert any("PROVISIONAL" in line for line in lines)
     assert not any(line.startswith("water,") for line in lines)
 
 
-def test_a_figure_can_be_the_user_s_own(tmp_path):
+def test_a_spectrum_can_be_the_user_s_own(tmp_path):
     file = tmp_path / "keratin.csv"
     file.write_text("250,10\n2500,20\n")
-    own = replaced(figures(), "keratin", file)
+    own = with_own_spectrum(published_spectra(), "keratin", file)
     assert own["keratin"].at(1375.0) == pytest.approx(15.0)
-    usual = stack(SPECIMENS["S3"], 1375.0).layers[0].absorption
-    changed = stack(SPECIMENS["S3"], 1375.0, known=own).layers[0].absorption
+    usual = Stack.of(SPECIMENS["S3"], 1375.0).layers[0].absorption
+    changed = Stack.of(SPECIMENS["S3"], 1375.0, Model(own)).layers[0].absorption
     assert changed == pytest.approx(usual + 0.65 * 15.0)
 
 
 @pytest.mark.parametrize(
     "text", ["300,1\n250,2\n", "250,-1\n300,2\n", "a,b\n", "", "250,nan\n260,1"]
 )
-def test_a_bad_figure_is_refused(tmp_path, text):
+def test_a_bad_spectrum_is_refused(tmp_path, text):
     file = tmp_path / "own.csv"
     file.write_text(text)
     with pytest.raises(InputError):
-        replaced(figures(), "keratin", file)
+        with_own_spectrum(published_spectra(), "keratin", file)
 
 
 def test_bad_parameters_are_named():
@@ -199,7 +193,7 @@ def test_bad_parameters_are_named():
 
 
 def absorption_by_hand(specimen, row):
-    """Absorption coefficients of the six layers and of melanin, from a row of figures.csv.
+    """Absorption coefficients of the six layers and of melanin, from a row of spectra.csv.
 
     Written from section 4.1, table 6.2 and appendix A: everything that is not melanin or blood is
     the same for all specimens.
@@ -237,10 +231,10 @@ def absorption_by_hand(specimen, row):
 @pytest.mark.parametrize("name", list(SPECIMENS))
 @pytest.mark.parametrize("wavelength", [270, 366, 450, 550, 700, 1100, 1650, 2400])
 def test_absorption_of_every_layer_by_hand(name, wavelength):
-    text = (files("hylios.spectra") / "figures.csv").read_text()
+    text = (files("hylios.spectra") / "spectra.csv").read_text()
     rows = {int(row["wavelength_nm"]): row for row in csv.DictReader(io.StringIO(text))}
     expected, melanin = absorption_by_hand(SPECIMENS[name], rows[wavelength])
-    layers = stack(SPECIMENS[name], float(wavelength)).layers
+    layers = Stack.of(SPECIMENS[name], float(wavelength)).layers
     assert [layer.absorption for layer in layers] == pytest.approx(expected, rel=1e-9)
     assert [layer.melanin_absorption for layer in layers[1:4]] == pytest.approx([melanin] * 3)
 

@@ -16,7 +16,7 @@ from hylios.adding.spectrum import spectrum
 from hylios.commands.cli import main
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.spectra import figures, replaced
+from hylios.spectra import published_spectra, with_own_spectrum
 from hylios.sun.action_spectra import (
     ERYTHEMA,
     MELANOGENESIS,
@@ -30,7 +30,7 @@ from hylios.sun.doses import Doses, joined, of_sed, of_spectrum, of_sun, of_uv_i
 from hylios.sun.position import sun
 from hylios.sun.protection import clothing, sunscreen, sunscreen_film
 from hylios.sun.sky import ClearSky
-from hylios.tissue import readings
+from hylios.tissue import Model
 
 NM = np.arange(280.0, 401.0)
 SKIN = Absorptance([280.0, 298.0, 340.0, 400.0], [0.95, 0.9, 0.8, 0.7])
@@ -249,8 +249,8 @@ def test_longer_in_the_sun_is_never_less(day, latitude, first, length):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ((SUMMER, 16.0, 10.0, 40.0), "sun is asked for from 16 to 10 h"),
-        ((SUMMER, 10.0, 10.0, 40.0), "sun is asked for from 10 to 10 h"),
+        ((SUMMER, 16.0, 10.0, 40.0), "sun is given from 16 to 10 h"),
+        ((SUMMER, 10.0, 10.0, 40.0), "sun is given from 10 to 10 h"),
         ((SUMMER, 10.0, 25.0, 40.0), "hour of sun is 25; allowed is 0 to 24"),
         ((SUMMER, np.nan, 16.0, 40.0), "hour of sun is nan"),
     ],
@@ -292,10 +292,10 @@ def test_doses_in_sed_say_nothing_of_estimates(capsys):
 def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
     """Given erythema's, melanin counts as the thickness does, and nothing is provisional."""
     own = tmp_path / "own.csv"
-    figure = figures()[ERYTHEMA]
+    figure = published_spectra()[ERYTHEMA]
     rows = zip(figure.wavelengths, figure.values, strict=True)
     own.write_text("".join(f"{nanometres},{value}\n" for nanometres, value in rows))
-    asked = "dose --sun 2025-06-21:12-13 --latitude 40 --figure melanogenesis_action="
+    asked = "dose --sun 2025-06-21:12-13 --latitude 40 --own-spectrum melanogenesis_action="
     (row,), notes = run(asked + str(own), capsys)
     assert row["melanogenesis_sed"] == row["thickening_sed"]
     assert "PROVISIONAL" not in notes
@@ -310,7 +310,7 @@ def test_a_clock_and_a_start(capsys):
 
 
 def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
-    """Options of the sky, and a reading and a figure of one's own, as in the functions."""
+    """Options of the sky, and a reading and a spectrum of one's own, as in the functions."""
     asked = "dose --sun 2025-06-21:12-13 --latitude 40 "
     (row,), _ = run(f"{asked} --ozone 400 --altitude 2000 --aerosol 0.3 --albedo 0.8", capsys)
     sky = ClearSky(400.0, 2000.0, 0.3, 0.8)
@@ -320,8 +320,8 @@ def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
     own.write_text("250,0\n2500,0\n")
     more = f"--figure dna={own} --reading colloidal_melanin=solid"
     (row,), _ = run(f"{asked} {more}", capsys)
-    known = replaced(figures(), "dna", own)
-    skin = tabulated(SPECIMENS["S3"], known=known, chosen=readings({"colloidal_melanin": "solid"}))
+    spectra = with_own_spectrum(published_spectra(), "dna", own)
+    skin = tabulated(SPECIMENS["S3"], Model(spectra, {"colloidal_melanin": "solid"}))
     expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin)
     assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
     usual = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]))
@@ -402,7 +402,7 @@ def test_the_sun_needs_no_numba():
         ("--sun 2025-06-31:10-16 --latitude 40", "a date is '2025-06-31'"),
         ("--sun 2025-06-21 --latitude 40", "expected DATE:FROM-TO"),
         ("--sun 2025-06-21:10 --latitude 40", "expected DATE:FROM-TO"),
-        ("--sun 2025-06-21:16-10 --latitude 40", "sun is asked for from 16 to 10 h"),
+        ("--sun 2025-06-21:16-10 --latitude 40", "sun is given from 16 to 10 h"),
         ("--sun 2025-06-21:10-16:75 --latitude 40", "minute of sun is 75"),
         ("--sun 2025-06-21:10-x --latitude 40", "hour of sun is 'x'"),
         ("--sun 2025-06-21:10-26 --latitude 40", "hour of sun is 26; allowed is 0 to 24"),

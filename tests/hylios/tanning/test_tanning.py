@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS, tanned
-from hylios.spectra import figures
+from hylios.spectra import published_spectra
 from hylios.sun.action_spectra import equivalent_dose
 from hylios.tanning import (
     LARGEST_DOSE,
@@ -491,7 +491,7 @@ WAVELENGTHS = np.arange(280.0, 401.0, 1.0)
 def test_light_of_298_nm_counts_in_full(name):
     """A narrow line of 100 J/m^2 at 298 nm is 1 SED, whatever the skin's absorptance."""
     line = np.where(WAVELENGTHS == 298.0, 100.0, 0.0)
-    action = figures()[name].at(WAVELENGTHS)
+    action = published_spectra()[name].at(WAVELENGTHS)
     for absorptance in (np.full(121, 0.9), np.linspace(0.99, 0.4, 121)):
         dose = equivalent_dose(WAVELENGTHS, line, action, absorptance)
         assert dose == pytest.approx(1.0, rel=1e-12)

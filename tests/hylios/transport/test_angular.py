@@ -12,7 +12,7 @@ from scipy.stats import chi2
 
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.tissue import Layer, Stack
+from hylios.tissue import Layer, Model, Stack
 from hylios.transport.angular import angular_reflectance, brdf
 from hylios.transport.counting import skin_key, skin_stack
 from hylios.transport.simulate import CHUNK, trace
@@ -243,7 +243,7 @@ def ratio(layers, rays=60_000):
 
 
 def test_skin_is_reciprocal_under_a_flat_surface_with_rayleigh_at_every_collision():
-    every = skin_stack(S3, 550.0, chosen={"rayleigh": "every_collision"})
+    every = skin_stack(S3, 550.0, Model(readings={"rayleigh": "every_collision"}))
     value, error = ratio(replace(every, roughness=0.0))
     assert abs(value - 1.0) < 3.0 * error
 

@@ -13,7 +13,7 @@ from scipy import stats
 from hylios.adding.solver import solve
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS, tanned
-from hylios.tissue import Layer, Stack, readings
+from hylios.tissue import Layer, Stack, complete_readings
 from hylios.transport import reuse
 from hylios.transport.counting import skin_stack
 from hylios.transport.paths import effective_sample_size, ready, trace_paths, weights
@@ -194,12 +194,12 @@ def test_all_that_scatters_at_once_conserves_light(radius):
         anisotropy=0.8,
         survival=1.0,
     )
-    for chosen in ({}, {"rayleigh": "every_collision"}):
+    for others in ({}, {"rayleigh": "every_collision"}):
         layers = Stack(
             (layer, replace(layer, thickness=5e-4)),
             lambertian_floor=True,
             scattering_angle=0.2,
-            readings=readings(chosen),
+            readings=complete_readings(others),
         )
         paths = trace_paths(layers, rays=20_000, key=(10,))
         assert paths.distance.size == 20_000

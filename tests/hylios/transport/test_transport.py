@@ -4,6 +4,7 @@ Statistical comparisons allow 4 standard errors: a correct model fails one of th
 seeds, and the seeds are fixed.
 """
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,8 @@ from scipy.special import expn
 
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.tissue import ABSORBERS, PARTS, Layer, Stack, absorbers, stack
+from hylios.spectra import published_spectra
+from hylios.tissue import ABSORBERS, PARTS, Layer, Model, Stack, absorbers
 from hylios.transport import interfaces
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import path_lengths, survival
@@ -37,7 +39,7 @@ def without_absorbers(layers: Stack) -> Stack:
 @pytest.mark.parametrize("name", list(SPECIMENS))
 @pytest.mark.parametrize("angle", [0.0, 75.0])
 def test_without_absorbers_all_light_comes_back(name, angle):
-    traced = trace(without_absorbers(stack(SPECIMENS[name], 500.0)), rays=10_000, angle=angle)
+    traced = trace(without_absorbers(Stack.of(SPECIMENS[name], 500.0)), rays=10_000, angle=angle)
     reflected = np.isin(traced.outcome, (SURFACE, SUBSURFACE)).sum()
     assert abs(reflected / traced.outcome.size - 1.0) < 1e-9
 
@@ -115,12 +117,12 @@ def test_every_ray_is_accounted_for(name):
 @pytest.mark.parametrize("colloidal", ["as_in_melanosomes", "solid"])
 def test_a_layer_absorbs_with_the_sum_of_its_absorbers(name, colloidal):
     wavelengths = np.array([250.0, 365.0, 550.0, 970.0, 2500.0])
-    chosen = {"colloidal_melanin": colloidal}
-    held = absorbers(SPECIMENS[name], wavelengths, chosen=chosen)
+    model = Model(readings={"colloidal_melanin": colloidal})
+    held = absorbers(SPECIMENS[name], wavelengths, model)
     assert tuple(held) == PARTS
     assert {each for part in held.values() for each in part} == set(ABSORBERS)
     for row, wavelength in enumerate(wavelengths):
-        layers = stack(SPECIMENS[name], wavelength, chosen=chosen).layers
+        layers = Stack.of(SPECIMENS[name], wavelength, model).layers
         for part, layer in zip(PARTS, layers, strict=True):
             assert layer.absorption == pytest.approx(sum(each[row] for each in held[part].values()))
 
@@ -147,7 +149,7 @@ def test_light_is_absorbed_by_layer_and_absorber():
 
 
 def test_surface_reflects_what_fresnel_says():
-    flat = replace(stack(SPECIMENS["S3"], 550.0), roughness=0.0)
+    flat = replace(Stack.of(SPECIMENS["S3"], 550.0), roughness=0.0)
     rays = 200_000
     for angle in (0.0, 60.0):
         expected, _ = interfaces.fresnel(
@@ -175,10 +177,9 @@ def test_fresnel_limits():
         ({"seed": -1}, "seed is -1"),
         ({"threads": -1}, "number of threads is -1"),
         ({"wavelengths": [[500.0]]}, "wavelengths are no list of numbers"),
-        ({"wavelengths": [float("nan")]}, "wavelength nan nm is outside the figure"),
-        ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the figure"),
+        ({"wavelengths": [float("nan")]}, "wavelength nan nm is outside the spectrum"),
+        ({"wavelengths": [249.0]}, "wavelength 249 nm is outside the spectrum"),
         ({"wavelengths": []}, "wavelengths are no list of numbers"),
-        ({"chosen": {"floor": "soft"}}, "reading floor is 'soft'; allowed is normal, mirrored."),
     ],
 )
 def test_bad_input_is_named(arguments, sentence):
@@ -188,10 +189,32 @@ def test_bad_input_is_named(arguments, sentence):
     assert sentence in str(error.value)
 
 
+def test_a_model_of_what_does_not_exist_is_refused():
+    with pytest.raises(InputError, match="reading floor is 'soft'; allowed is normal, mirrored."):
+        Model(readings={"floor": "soft"})
+    with pytest.raises(InputError, match="there is no reading 'ceiling'; there are colloidal_mel"):
+        Model(readings={"ceiling": "off"})
+    with pytest.raises(InputError, match="there is no spectrum 'wine'; there are eumelanin, "):
+        Model({"wine": published_spectra()["water"]})
+
+
+def test_a_model_is_equal_by_what_it_holds_and_travels_to_other_processes():
+    usual, water = Model(), published_spectra()["water"]
+    own = replace(water, values=2.0 * water.values)
+    assert usual == Model(published_spectra(), {"floor": "normal"})
+    assert hash(usual) == hash(Model(published_spectra()))
+    assert usual != Model({"water": own}) != Model({"water": own}, {"floor": "mirrored"})
+    assert usual.own_spectra == {} and Model({"water": own}).own_spectra == {"water": own}
+    assert pickle.loads(pickle.dumps(usual)) == usual
+    copy = pickle.loads(pickle.dumps(Model({"water": own}, {"floor": "mirrored"})))
+    assert copy.readings["floor"] == "mirrored" and list(copy.own_spectra) == ["water"]
+    assert np.array_equal(copy.spectra["water"].values, own.values)
+
+
 def test_layers_too_thin_for_their_melanosomes_are_refused():
     with pytest.raises(InputError, match="basale_thickness is 3.3e-05 cm; allowed with melanos"):
-        stack(replace(SPECIMENS["S3"], basale_thickness=3.3e-5), 500.0)
-    assert stack(replace(SPECIMENS["S3"], granulosum_thickness=3.3e-5), 500.0)
+        Stack.of(replace(SPECIMENS["S3"], basale_thickness=3.3e-5), 500.0)
+    assert Stack.of(replace(SPECIMENS["S3"], granulosum_thickness=3.3e-5), 500.0)
 
 
 def test_one_ray_is_not_certain():

@@ -13,7 +13,7 @@ import pytest
 from scipy import stats
 
 from hylios.skin.specimen import SPECIMENS
-from hylios.tissue import Layer, Stack, readings, stack
+from hylios.tissue import Layer, Model, Stack, complete_readings
 from hylios.transport.simulate import count, spectrum, trace
 from hylios.transport.survival import with_survival
 from hylios.transport.walk import SUBSURFACE
@@ -72,7 +72,7 @@ def test_reflectance_is_the_same_wavelength_by_wavelength(name):
 
 
 @pytest.mark.parametrize(
-    "chosen",
+    "readings",
     [
         {"complex_content": "packed"},
         {"complex_melanosomes": "diameter"},
@@ -82,10 +82,11 @@ def test_reflectance_is_the_same_wavelength_by_wavelength(name):
         {"inner_fresnel": "off"},
         {"floor": "mirrored"},
     ],
-    ids=lambda chosen: next(iter(chosen)),
+    ids=lambda readings: next(iter(readings)),
 )
-def test_fates_are_the_same_in_every_reading(chosen):
-    assert p_value(*both_ways(stack(SPECIMENS["S3"], 500.0, chosen=chosen), 25_000)) > LEVEL
+def test_fates_are_the_same_in_every_reading(readings):
+    layers = Stack.of(SPECIMENS["S3"], 500.0, Model(readings=readings))
+    assert p_value(*both_ways(layers, 25_000)) > LEVEL
 
 
 def crowded(arrangement):
@@ -100,12 +101,12 @@ def crowded(arrangement):
 
 @pytest.mark.parametrize("arrangement", ["individual", "complexes", "compact_complexes"])
 def test_fates_are_the_same_where_melanosomes_crowd(arrangement):
-    assert p_value(*both_ways(stack(crowded(arrangement), 500.0), 12_000)) > LEVEL
+    assert p_value(*both_ways(Stack.of(crowded(arrangement), 500.0), 12_000)) > LEVEL
 
 
 @pytest.mark.parametrize("angle", [0.0, 60.0, 89.0])
 def test_fates_are_the_same_at_every_incidence(angle):
-    assert p_value(*both_ways(stack(SPECIMENS["S3"], 600.0), 25_000, angle)) > LEVEL
+    assert p_value(*both_ways(Stack.of(SPECIMENS["S3"], 600.0), 25_000, angle)) > LEVEL
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.41e-4])
@@ -123,12 +124,12 @@ def test_fates_are_the_same_where_all_kinds_of_attenuators_share_a_layer(radius)
         scattering=2000.0,
         anisotropy=0.8,
     )
-    for chosen in ({}, {"rayleigh": "every_collision"}):
+    for others in ({}, {"rayleigh": "every_collision"}):
         layers = Stack(
             (layer, replace(layer, refractive_index=1.5)),
             melanin_index=1.7,
             scattering_angle=0.2,
-            readings=readings(chosen),
+            readings=complete_readings(others),
         )
         assert p_value(*both_ways(layers, 25_000)) > LEVEL
 
@@ -136,7 +137,7 @@ def test_fates_are_the_same_where_all_kinds_of_attenuators_share_a_layer(radius)
 @pytest.mark.parametrize("name", ["S3", "S4"])
 def test_light_leaves_at_the_same_places_and_in_the_same_directions(name):
     """Kolmogorov-Smirnov at 1e-4 for each of distance and three components of direction."""
-    layers = stack(SPECIMENS[name], 620.0)
+    layers = Stack.of(SPECIMENS[name], 620.0)
     found, printed = (
         trace(layers, rays=30_000, angle=45.0, key=(6, way), as_printed=bool(way)) for way in (0, 1)
     )
@@ -151,7 +152,7 @@ def test_light_leaves_at_the_same_places_and_in_the_same_directions(name):
 
 @pytest.mark.parametrize("as_printed", [False, True])
 def test_counted_rays_are_the_traced_ones(as_printed):
-    layers = with_survival(stack(SPECIMENS["S4"], 560.0))
+    layers = with_survival(Stack.of(SPECIMENS["S4"], 560.0))
     work = {"rays": 3_000, "angle": 30.0, "key": (8, 1), "as_printed": as_printed}
     counted, traced = count(layers, **work), trace(layers, **work)
     ends = np.bincount(traced.outcome, minlength=5)
@@ -179,14 +180,14 @@ def many(layers, rays, as_printed):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["S3", "S4"])
 def test_fates_of_ten_million_rays_are_the_same(name):
-    layers = with_survival(stack(SPECIMENS[name], 550.0))
+    layers = with_survival(Stack.of(SPECIMENS[name], 550.0))
     assert p_value(many(layers, 10**7, False), many(layers, 10**7, True)) > LEVEL
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("arrangement", ["individual", "complexes"])
 def test_fates_of_half_a_million_rays_are_the_same_where_melanosomes_crowd(arrangement):
-    layers = with_survival(stack(crowded(arrangement), 500.0))
+    layers = with_survival(Stack.of(crowded(arrangement), 500.0))
     assert p_value(many(layers, 5 * 10**5, False), many(layers, 5 * 10**5, True)) > LEVEL
 
 

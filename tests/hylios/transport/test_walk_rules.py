@@ -14,7 +14,7 @@ import pytest
 from numba import njit
 
 from hylios.skin.specimen import SPECIMENS, with_values
-from hylios.tissue import Layer, Stack, readings, stack
+from hylios.tissue import Layer, Model, Stack, complete_readings
 from hylios.transport.generator import stream
 from hylios.transport.interfaces import fresnel, meet_surface
 from hylios.transport.simulate import spectrum, trace
@@ -104,8 +104,8 @@ def test_a_complex_holds_the_melanosomes_of_its_chord(counting):
     height = np.sqrt(1.0 - (np.arange(100_000) + 0.5) / 100_000)
     count = np.floor(4.1 * (height if counting == "chord" else np.ones(1)))
     absorbed = 1.0 - np.mean(0.3**count)
-    chosen = readings({"complex_melanosomes": counting})
-    traced = trace(Stack((layer,), readings=chosen), rays=RAYS)
+    readings = complete_readings({"complex_melanosomes": counting})
+    traced = trace(Stack((layer,), readings=readings), rays=RAYS)
     assert_share(transmitted(traced), np.exp(-8.0 * 0.1 * absorbed))
 
 
@@ -250,7 +250,7 @@ def test_other_readings_move_s3_as_an_independent_implementation_found(
 ):
     """RMSE in the UV, the visible and 700 to 1400 nm, printed there to two places: within .012 or
     8 %, for its rounding, another choice of wavelengths and the noise of both."""
-    moved = total(chosen={name: choice}) - usual_total
+    moved = total(model=Model(readings={name: choice})) - usual_total
     regions = (BROAD < 400, (BROAD >= 400) & (BROAD < 700), BROAD >= 700)
     found = [np.sqrt(np.mean(moved[region] ** 2)) for region in regions]
     assert np.allclose(found, expected, atol=0.012, rtol=0.08)
@@ -262,13 +262,14 @@ def test_other_readings_move_s3_as_an_independent_implementation_found(
 )
 def test_more_melanosomes_met_is_darker(name, choice, most):
     usual = spectrum(SPECIMENS["S3"], [500.0, 550.0], rays=50_000).total
-    other = spectrum(SPECIMENS["S3"], [500.0, 550.0], rays=50_000, chosen={name: choice}).total
+    model = Model(readings={name: choice})
+    other = spectrum(SPECIMENS["S3"], [500.0, 550.0], rays=50_000, model=model).total
     assert np.all(other - usual < most)
 
 
 def test_compact_complexes_are_as_wide_as_a_melanosome_is_long():
     compact = with_values(SPECIMENS["S3"], {"melanosome_arrangement": "compact_complexes"})
-    layer = stack(compact, 550.0).layers[3]
+    layer = Stack.of(compact, 550.0).layers[3]
     assert layer.complex_radius == pytest.approx(0.205e-4)
     assert layer.encounter == pytest.approx(0.75 * 0.03 / 0.205e-4)
 

@@ -5,8 +5,6 @@
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
-# The matrices here are small: threads of BLAS would cost them ten times their own time.
-export OPENBLAS_NUM_THREADS := 1
 
 .PHONY: demo figures simplifications agreement test test-all lint bench docs package environment
 
@@ -35,7 +33,6 @@ bench: environment
 	@$(BIN)/python -m examples.bench
 
 # Measures what each part of the light model costs and is worth, and writes the page in docs/.
-# One thread of linear algebra: its threads would count as work while they wait.
 simplifications: environment
 	@$(BIN)/python -m examples.simplifications
 

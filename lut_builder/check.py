@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from hylios.adding import solve
 from hylios.errors import InputError
@@ -169,12 +168,11 @@ def check(
 def _solved(specimens: list[Specimen], model: Model, told: Progress) -> np.ndarray:
     """Colours (N, 3) by the solver, wavelength by wavelength: so it is fastest."""
     total = np.empty((FINE.size, len(specimens)))
-    # The matrices are small: threads of linear algebra would cost ten times what they bring.
-    with threadpool_limits(1, "blas"):
-        for row, wavelength in zip(total, FINE, strict=True):
-            stacks = [Stack.of(each, float(wavelength), model) for each in specimens]
-            row[:] = solve(stacks, ANGLE).total
-            told(len(specimens) / FINE.size)
+    for row, wavelength in zip(total, FINE, strict=True):
+        row[:] = solve(
+            [Stack.of(each, float(wavelength), model) for each in specimens], ANGLE
+        ).total
+        told(len(specimens) / FINE.size)
     return (rec709_weights(FINE) @ total).T
 
 

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.adding.melanosomes import encounters, left_out
 from hylios.adding.optics import Optics, Pattern, figures, is_medium, optics, pattern
 from hylios.adding.scattering import once_per_traversal, response, stacked
 from hylios.adding.surface import fresnel
-from hylios.adding.survival import survival_in_melanosome
 from hylios.errors import InputError, require_range, require_whole
 from hylios.threads import one_thread
 from hylios.tissue import Layer, Stack
+from hylios.tissue.melanosome_encounters import encounters, left_out
+from hylios.tissue.melanosome_survival import survival_in_melanosome
 
 NODES = 22
 """Directions by default: within 2.5e-4 of what many more give, 1e-4 rms."""
@@ -77,15 +77,15 @@ def solve(
     """Reflectance and absorptance of stacks, without random numbers.
 
     The model is that of `hylios.transport`. What differs are the means that stand for melanosomes
-    drawn again (`hylios.adding.melanosomes`), and the finite number of directions. A stack's
-    result does not depend on the others. Stacks that differ only in thickness, absorption and
-    amounts, from each other or from others solved before, are solved faster.
+    drawn again (`hylios.tissue.melanosome_encounters`), and the finite number of directions. A
+    stack's result does not depend on the others. Stacks that differ only in thickness, absorption
+    and amounts, from each other or from others solved before, are solved faster.
 
     Parameters
     ----------
     stacks : sequence of Stack
         Where a layer with melanosomes has no `survival`, it is looked up
-        (`hylios.adding.survival`).
+        (`hylios.tissue.melanosome_survival`).
     angle : float or sequence of float
         Of incidence, in degrees, 0 to 89.99; several take little longer than one.
     nodes : int

@@ -17,13 +17,13 @@ from types import MappingProxyType
 
 import numpy as np
 from scipy.optimize import least_squares
-from threadpoolctl import threadpool_limits
 
 from hylios.adding import spectra
 from hylios.errors import InputError, require_range
 from hylios.quadrature import skin_quadrature
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import EPIDERMIS, Specimen, parameters
+from hylios.threads import one_thread
 from hylios.tissue import Model
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -228,7 +228,7 @@ def fit(
         moved = misfit(np.vstack([unknowns, unknowns + np.diag(inwards)]))
         return ((moved[1:] - moved[0]) / inwards[:, None]).T
 
-    with threadpool_limits(1):  # threads cost small matrices ten times their own time
+    with one_thread():
         found = least_squares(
             lambda unknowns: misfit(unknowns[None])[0],
             np.clip(0.0, np.log(low) + MARGIN * room, np.log(high) - MARGIN * room),

@@ -6,8 +6,9 @@ import numpy as np
 
 from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
+from hylios.threads import in_threads, thread_count
 from hylios.tissue import Model, Stack
-from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, in_threads, thread_count, trace
+from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, trace
 from hylios.transport.survival import with_survival
 
 

@@ -16,13 +16,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hylios.adding.melanosomes import encounters
-from hylios.adding.survival import is_tabulated, survival_in_melanosome
 from hylios.errors import InputError, require_range, require_whole
+from hylios.threads import in_order
 from hylios.tissue import Layer, Stack
+from hylios.tissue.melanosome_encounters import encounters
+from hylios.tissue.melanosome_survival import is_tabulated, survival_in_melanosome
 from hylios.transport.generator import stream
 from hylios.transport.recording import SUMS, record_paths
-from hylios.transport.simulate import CHUNK, MOST_RAYS, NO_END, in_order
+from hylios.transport.simulate import CHUNK, MOST_RAYS, NO_END
 from hylios.transport.survival import with_survival
 from hylios.transport.walk import kernel_arguments
 
@@ -171,7 +172,7 @@ def rescaled(layers: Stack, thickness: float) -> Stack:
 
     Lengths of paths scale with it. As melanosomes keep their size, more of them would have to be
     drawn again, and so fewer be met: their coefficient makes up for that
-    (`hylios.adding.melanosomes`; for light that melanosomes hardly turn or absorb).
+    (`hylios.tissue.melanosome_encounters`; for light that melanosomes hardly turn or absorb).
     """
     factor = total_thickness(layers) / thickness
     if factor == 1.0:

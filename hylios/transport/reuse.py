@@ -16,11 +16,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hylios.adding.melanosomes import encounters
 from hylios.errors import InputError, require_range
 from hylios.skin.specimen import Specimen
 from hylios.spectra import require_wavelengths
+from hylios.threads import in_order, in_threads, one_thread, thread_count
 from hylios.tissue import Layer, Model, Stack
+from hylios.tissue.melanosome_encounters import encounters
 from hylios.transport.counting import skin_key
 from hylios.transport.paths import (
     LEAST,
@@ -33,14 +34,7 @@ from hylios.transport.paths import (
     rescaled,
     total_thickness,
 )
-from hylios.transport.simulate import (
-    CHUNK,
-    DISTANCE_EDGES,
-    count,
-    in_order,
-    in_threads,
-    thread_count,
-)
+from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, count
 
 LIGHTER = 0.6
 """Absorption with which shared paths are walked, relative to the state's own: more of them come
@@ -186,10 +180,11 @@ def profiles(
     if not stacks:
         raise InputError("profiles need at least 1 stack.")
     require_alike(stacks)
-    groups = [
-        _shared(stacks[first : first + TOGETHER], error, angle, (*key, first), threads)
-        for first in range(0, len(stacks), TOGETHER)
-    ]
+    with one_thread():  # all cores weight paths already
+        groups = [
+            _shared(stacks[first : first + TOGETHER], error, angle, (*key, first), threads)
+            for first in range(0, len(stacks), TOGETHER)
+        ]
     return Profiles(
         light=np.concatenate([each.light for each in groups]),
         squares=np.concatenate([each.squares for each in groups]),

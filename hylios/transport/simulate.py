@@ -1,8 +1,6 @@
 """Light transport as arrays: rays through a stack, spectra and exit distances of a specimen."""
 
-import os
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +8,7 @@ import numpy as np
 from hylios.errors import require_range, require_whole
 from hylios.skin.specimen import Specimen
 from hylios.spectra import require_wavelengths
+from hylios.threads import in_threads, thread_count
 from hylios.tissue import ABSORBERS, PARTS, Model, Stack, absorbers
 from hylios.transport.generator import stream
 from hylios.transport.kernels import (
@@ -322,48 +321,3 @@ def _absorber_shares(
     table = np.moveaxis(table, -1, 0)
     whole = table.sum(axis=-1, keepdims=True)
     return np.divide(table, whole, out=np.zeros_like(table), where=whole > 0)
-
-
-def thread_count(asked: int | None) -> int:
-    """Number of threads: as many as asked for, all cores for None or 0.
-
-    Raises
-    ------
-    InputError
-        If there are to be fewer than 0 or more than 1024.
-    """
-    return require_whole("number of threads", asked or os.cpu_count() or 1, 1, 1024)
-
-
-def in_threads(function: Callable, tasks: Iterator, threads: int) -> Iterator:
-    """Results as they end, with a few tasks waiting; on any exception the waiting ones are dropped.
-
-    The kernels release the interpreter's lock, so threads run at once.
-    """
-    with ThreadPoolExecutor(max_workers=threads) as pool:
-        running: set[Future] = set()
-        try:
-            for task in tasks:
-                running.add(pool.submit(function, task))
-                if len(running) >= 2 * threads:
-                    ended, running = wait(running, return_when="FIRST_COMPLETED")
-                    yield from (each.result() for each in ended)
-            while running:
-                ended, running = wait(running, return_when="FIRST_COMPLETED")
-                yield from (each.result() for each in ended)
-        finally:
-            for each in running:
-                each.cancel()
-
-
-def in_order(function: Callable, tasks: Iterable, threads: int | None):
-    """Results of tasks in their order, whichever ends first, so that sums are the same."""
-    waiting, due = {}, 0
-    numbered = in_threads(
-        lambda task: (task[0], function(task[1])), iter(enumerate(tasks)), thread_count(threads)
-    )
-    for number, result in numbered:
-        waiting[number] = result
-        while due in waiting:
-            yield waiting.pop(due)
-            due += 1

@@ -1,4 +1,4 @@
-"""Makes the table of survival in a melanosome that `hylios.adding` reads: no simulation there.
+"""Makes the table of survival in a melanosome that `hylios.tissue` reads: no walk there.
 
 `python -m hylios.transport.survival_table` writes it anew, in about 5 minutes on one core.
 """
@@ -8,7 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.adding.survival import ASPECTS, POINTS, RATIOS, TABLE, aspects, ratios
+from hylios.tissue.melanosome_survival import (
+    ASPECTS,
+    POINTS,
+    RATIOS,
+    TABLE,
+    aspects,
+    ratios,
+)
 from hylios.transport.generator import stream
 from hylios.transport.survival import walk_paths
 

@@ -23,7 +23,7 @@ from urllib.parse import urlsplit
 from hylios.errors import InputError
 from lut_builder.jobs.run import Runner
 from lut_builder.jobs.software import software_digest
-from lut_builder.jobs.units import Unit, perform_alone
+from lut_builder.jobs.units import Unit, perform
 
 PATIENCE = 10.0
 """How long to wait for the scheduler's answer and for a first worker, in seconds."""
@@ -185,9 +185,9 @@ class _Call:
 
 
 def _perform_here(unit: Unit, software: str) -> bytes:
-    """`perform_alone` on a worker, which may have come after the others were asked."""
+    """`perform` on a worker, which may have come after the others were asked."""
     if software_digest() != software:
         from distributed import get_worker
 
         raise _other_software(get_worker().address)
-    return perform_alone(unit, software)
+    return perform(unit, software)

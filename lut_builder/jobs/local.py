@@ -9,8 +9,6 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import active_children, get_context
 from typing import Protocol
 
-from threadpoolctl import threadpool_limits
-
 from hylios.errors import InputError
 from lut_builder.jobs.interrupts import interrupts_held
 from lut_builder.jobs.run import Runner
@@ -35,8 +33,7 @@ def in_threads(count: int) -> Runner:
     def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
         pool = ThreadPoolExecutor(count)
         try:
-            with threadpool_limits(1):
-                yield from _as_they_end(pool, units, software)
+            yield from _as_they_end(pool, units, software)
         finally:
             pool.shutdown(cancel_futures=True)
 
@@ -98,7 +95,6 @@ def _prepare(reader: Pipe) -> None:
     """What a process does before its first unit."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, args=(reader,), daemon=True).start()
-    threadpool_limits(1)
 
 
 def _end_with_parent(reader: Pipe) -> None:

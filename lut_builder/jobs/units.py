@@ -15,7 +15,8 @@ from types import FunctionType
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
+
+from hylios.threads import one_thread
 
 Arrays = dict[str, np.ndarray]
 
@@ -99,7 +100,9 @@ def perform(unit: Unit, software: str) -> bytes:
     TypeError
         If its results are anything but arrays of numbers or truth values.
     """
-    results = {name: np.asarray(array) for name, array in unit.function(*unit.arguments).items()}
+    with one_thread():
+        given = unit.function(*unit.arguments)
+    results = {name: np.asarray(array) for name, array in given.items()}
     for name, array in results.items():
         if array.dtype.kind not in "biufc":
             raise TypeError(f"{name} of unit {unit.name} is an array of {array.dtype}")
@@ -107,12 +110,6 @@ def perform(unit: Unit, software: str) -> bytes:
     header = json.dumps({"digest": unit_digest(unit, software), "arrays": arrays})
     body = b"\n".join([header.encode(), b"".join(array.tobytes() for array in results.values())])
     return hashlib.sha256(body).hexdigest().encode() + b"\n" + body
-
-
-def perform_alone(unit: Unit, software: str) -> bytes:
-    """`perform`, in a process whose linear algebra stays in one thread from then on."""
-    threadpool_limits(1)
-    return perform(unit, software)
 
 
 def unpacked(content: bytes) -> Arrays:

@@ -37,7 +37,7 @@ from hylios.skin.specimen import SPECIMENS
 assert Path(hylios.__file__).is_relative_to(carried), hylios.__file__
 states = np.load(sys.argv[3])
 found = colours(Skin.of(SPECIMENS["S3"]), states, count=8)
-assert not {"numba", "scipy", "colour", "threadpoolctl"} & set(sys.modules)
+assert not {"numba", "scipy", "colour"} & set(sys.modules)
 np.save(sys.argv[4], found.total)
 
 for index in (1.5, 1.51, 1.52):  # all that depends on refraction is worked out anew

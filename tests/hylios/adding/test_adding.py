@@ -14,14 +14,13 @@ from scipy.special import expn
 from hylios import tissue
 from hylios.adding import solve
 from hylios.adding import spectrum as spectrum_without_noise
-from hylios.adding.survival import survival_in_melanosome
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Model, Stack
+from hylios.tissue.melanosome_survival import survival_in_melanosome
 from hylios.transport.interfaces import fresnel
 from hylios.transport.simulate import spectrum, trace
 from hylios.transport.survival import with_survival
-from hylios.transport.survival_table import quadrature
 from hylios.transport.walk import TRANSMITTED
 
 WAVELENGTHS = np.array([250.0, 300.0, 400.0, 460.0, 550.0, 650.0, 800.0, 1050.0, 1450.0, 2200.0])
@@ -250,7 +249,7 @@ def test_seldom_met_melanosomes_absorb_at_their_rate():
 @pytest.mark.parametrize(("name", "part"), [("S1", 3), ("S3", 3), ("S4", 1), ("S4", 3)])
 def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part, survival):
     """One layer alone, straight light: what the walk's slab lets through, within 4 standard errors
-    and .5 % of its extinction, which `hylios.adding.melanosomes` gives as its own error."""
+    and .5 % of its extinction, the error that `hylios.tissue.melanosome_encounters` states."""
     layer = replace(Stack.of(SPECIMENS[name], 550.0).layers[part], absorption=0.0)
 
     def off(exponent):
@@ -275,39 +274,6 @@ def test_light_that_melanosomes_turn_meets_as_many_as_in_the_walk():
         for name, found in walked.items()
     ]
     assert np.sqrt(np.mean(np.square(apart))) < 5e-4
-
-
-def test_tabulated_survival_is_the_simulated_one():
-    """Light absorbed in one melanosome within .6 %: 4 standard errors of the simulated one."""
-    for name in SPECIMENS:
-        for plain, known in zip(
-            [Stack.of(SPECIMENS[name], each) for each in WAVELENGTHS],
-            stacks(SPECIMENS[name]),
-            strict=True,
-        ):
-            for layer, expected in zip(plain.layers, known.layers, strict=True):
-                if layer.encounter > 0.0:
-                    found = survival_in_melanosome(layer, plain.melanin_index)
-                    assert 1.0 - found == pytest.approx(1.0 - expected.survival, rel=0.006)
-
-
-def test_the_table_keeps_the_moments_of_what_it_is_made_from():
-    lengths = np.random.default_rng(8).gamma(2.0, size=1000)
-    points, weights = quadrature(lengths, 6)
-    for power in range(12):
-        expected = np.mean(lengths**power)
-        assert weights @ points**power == pytest.approx(expected, rel=1e-9)
-
-
-def test_survival_falls_smoothly_from_1():
-    layer = Stack.of(SPECIMENS["S3"], 550.0).layers[3]
-    found = [
-        survival_in_melanosome(replace(layer, melanin_absorption=each), 1.7)
-        for each in (0.0, *np.geomspace(1.0, 1e9, 60))
-    ]
-    assert found[0] == pytest.approx(1.0, abs=1e-7)
-    assert np.all(np.diff(found) < 1e-12)
-    assert found[-1] < 1e-12
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,4 @@
-"""Colours of tanning states without noise, and the limit of threads that they need."""
-
-import os
-import subprocess
-import sys
+"""Colours of tanning states without noise."""
 
 import numpy as np
 import pytest
@@ -12,7 +8,6 @@ from hylios.errors import InputError
 from hylios.lab import colour
 from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS, with_values
-from hylios.threads import controls, one_thread
 
 S3 = Skin.of(SPECIMENS["S3"])
 STATES = np.array([[*S3.untanned_melanin * more, 1.0 + 0.1 * more] for more in (1.0, 1.5, 2.5)])
@@ -76,50 +71,3 @@ def test_skin_without_absorbers_is_white():
 def test_bad_input_is_named(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         colours(S3, **{"states": STATES, **arguments})
-
-
-LIMITED = """
-from threading import Barrier, Thread
-from hylios.threads import controls, one_thread
-
-get, _ = controls()
-before = get()
-assert before > 1, before
-barrier, seen = Barrier(2), []
-
-def leave_in_turn(first):
-    with one_thread():
-        barrier.wait()
-        if first:
-            return
-        other.join()
-        seen.append(get())
-
-other = Thread(target=leave_in_turn, args=[True])
-last = Thread(target=leave_in_turn, args=[False])
-other.start(), last.start(), other.join(), last.join()
-assert seen == [1], seen
-try:
-    with one_thread():
-        raise KeyError
-except KeyError:
-    pass
-assert get() == before, get()
-"""
-
-
-@pytest.mark.skipif(controls() is None, reason="numpy here comes without OpenBLAS")
-def test_threads_are_limited_until_the_last_user_leaves():
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "OPENBLAS_NUM_THREADS": "2"},
-    )
-    assert done.returncode == 0, done.stderr
-
-
-def test_numpy_without_openblas_is_left_alone(monkeypatch):
-    monkeypatch.setattr("hylios.threads.controls", lambda: None)
-    with one_thread():
-        assert np.linalg.inv(2.0 * np.eye(2))[0, 0] == 0.5

@@ -8,8 +8,8 @@ their size alone:
   at which two on one ray cease to overlap. If a share h of what meets one goes on, light falls off
   in the long run by encounter (1 - h) / (1 + h x), x = encounter l (less encounter squared times
   that length's variance). Here h is the survival, and for light's P_l waves of direction the
-  survival times g_l, the moments of `hylios.adding.scattering`. As if light were met at the full
-  rate and a share h (1 + x) / (1 + h x) went on: nearly a h + b h^2, scattered once and twice.
+  survival times g_l, the moments of the angle by which one turns it. As if light were met at the
+  full rate and a share h (1 + x) / (1 + h x) went on: nearly a h + b h^2, scattered once and twice.
 - None is met within (z - s cos) of the face where light comes in, z being half a melanosome's
   extent across the layer and s the distance along the ray from the point hit to the centre.
 - Towards the other face, (z + s cos) is closed. But those drawn there are drawn again in the

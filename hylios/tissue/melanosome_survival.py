@@ -1,9 +1,11 @@
 """Survival of light that meets a melanosome, from a table of lengths of paths through it.
 
-The table, `survival.csv`, is made by `hylios.transport.survival_table` by walking the paths, for
-light that goes in straight on. For each shape and ratio of refractive indices it has a few lengths
-and weights, with which the mean of exp(-absorption length) over all paths is a sum. Its standard
-error is 0.04 % of the light absorbed in one melanosome; sums and interpolation add less than that.
+The table, `melanosome_survival.csv`, is made by `hylios.transport.survival_table` by walking the
+paths, for light that goes in straight on. For each shape and ratio of refractive indices it has a
+few lengths and weights, with which the mean of exp(-absorption length) over all paths is a sum. Its
+standard error is 0.04 % of the light absorbed in one melanosome; sums and interpolation add less
+than that, in long melanosomes that absorb little up to 0.1 %. The shapes go beyond every pair of
+axes within physiology (`hylios.skin.physiology`).
 """
 
 import csv
@@ -12,16 +14,16 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.adding.directions import lagrange
 from hylios.errors import require_range
+from hylios.lagrange import lagrange
 from hylios.tissue import Layer
 
-TABLE = Path(__file__).with_name("survival.csv")
+TABLE = Path(__file__).with_name("melanosome_survival.csv")
 
-ASPECTS, RATIOS, POINTS = 8, 8, 12
+ASPECTS, RATIOS, POINTS = 10, 8, 12
 """Shapes, ratios of refractive indices, and lengths for each pair of them."""
 
-LEAST_ASPECT, MOST_RATIO = 0.15, 1.6
+LEAST_ASPECT, MOST_RATIO = 0.08, 1.6
 """Ends of the table: semi-minor to semi-major axis from there to 1, index inside to outside from 1
 to there."""
 

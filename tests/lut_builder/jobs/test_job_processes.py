@@ -45,7 +45,7 @@ def test_a_process_that_dies_is_one_sentence_and_what_was_done_stays(tmp_path):
 
 def test_a_process_that_dies_while_others_wait_for_large_arguments_is_one_sentence():
     """More than a pipe holds, lest what feeds it waits for a reader that is gone."""
-    units = [replace(unit, arguments=(*unit.arguments, 0.0, bytes(10**6))) for unit in walks(12)]
+    units = [replace(unit, arguments=(*unit.arguments, bytes(10**6))) for unit in walks(12)]
     units.insert(3, Unit("z", die, (), size=1e9))
     with pytest.raises(InputError, match="ended from outside"):
         run_units(units, None, "1", in_processes(2))

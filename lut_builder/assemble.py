@@ -19,6 +19,7 @@ from lut_builder.axes import choose_axes, needed_knots
 from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
 from lut_builder.jobs.units import Unit
+from lut_builder.own_spectra import described_spectra
 from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelengths
 from lut_builder.settings import Settings
 
@@ -214,9 +215,7 @@ def provenance(request: Request) -> dict:
             for name, value in asdict(settings).items()
         },
         "readings": dict(model.readings),
-        "own_figures": {
-            name: spectrum.source for name, spectrum in model.own_spectra.items() if name in SPECTRA
-        },
+        **described_spectra(model),
         "bands_nm": list(settings.bands),
         "angle_deg": ANGLE,
         "seed": request.seed,

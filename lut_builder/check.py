@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -10,15 +9,14 @@ from hylios.adding import solve
 from hylios.errors import InputError
 from hylios.lab.colour import difference, rec709_weights
 from hylios.quadrature import MOST, skin_quadrature
-from hylios.skin import UNTANNED, Skin
 from hylios.skin.specimen import Specimen
-from hylios.spectra import published_spectra, with_own_spectrum
-from hylios.table import SkinTable, melanin_dynamics
+from hylios.spectra import Spectra
+from hylios.table import SkinTable, skin_of
 from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.axes import reachable_states
+from lut_builder.own_spectra import require_own_spectra
 from lut_builder.request import ANGLE
-from lut_builder.settings import Settings
 
 FINE = np.arange(400.0, 701.0, 5.0)
 """Wavelengths in nm of a direct colour without noise."""
@@ -55,72 +53,6 @@ class Check:
         return float(np.mean(self.noise**2) / np.mean(self.differences**2))
 
 
-def skin_of(table: SkinTable) -> Skin:
-    """The skin that a table was made for, from its header.
-
-    The dynamics are those that the header spells out; where it does not, as in the first tables,
-    those of the tanning set that it names.
-
-    Raises
-    ------
-    InputError
-        If the header lacks a part of it or a part cannot be used.
-    """
-    made = table.provenance
-    try:
-        return Skin(
-            specimen=Specimen(**made["specimen_parameters"]),
-            pigmentation=made["pigmentation"],
-            mmd=float(made["mmd_sed"]),
-            med=float(made["med_sed"]),
-            dynamics=melanin_dynamics(made),
-            untanned=_untanned(made["untanned_state"]),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"the table does not say for which skin it was made: {error}") from error
-
-
-def _untanned(sentence: str) -> str:
-    """Name of the untanned state that a header describes."""
-    names = {said: name for name, said in UNTANNED.items()}
-    if sentence not in names:
-        raise InputError(
-            f"the table's untanned state is {sentence!r}; allowed are {'; '.join(names)}."
-        )
-    return names[sentence]
-
-
-def settings_of(table: SkinTable) -> Settings:
-    """How a table was built, from its header.
-
-    Raises
-    ------
-    InputError
-        If the header does not say so.
-    """
-    try:
-        told = dict(table.provenance["settings"])
-        told["knots"] = tuple(int(each) for each in told["knots"])
-        told["bands"] = tuple(float(each) for each in told["bands"])
-        return Settings(**told)
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"the table does not say how it was built: {error}") from error
-
-
-def model_of(table: SkinTable) -> Model:
-    """The spectra and readings that a table was built with; the user's own files are read again.
-
-    Raises
-    ------
-    InputError
-        If a file cannot be read or a reading does not exist.
-    """
-    spectra = published_spectra()
-    for name, path in table.provenance.get("own_figures", {}).items():
-        spectra = with_own_spectrum(spectra, name, Path(path))
-    return Model(spectra, table.provenance.get("readings", {}))
-
-
 def check(
     table: SkinTable,
     *,
@@ -129,6 +61,7 @@ def check(
     rays: int = 0,
     threads: int | None = None,
     progress: Progress | None = None,
+    spectra: Spectra | None = None,
 ) -> Check:
     """Compute reachable states directly and compare their colour with the table's.
 
@@ -140,20 +73,25 @@ def check(
         Per wavelength of a random walk; 0 for the deterministic solver, every 5 nm.
     progress : callable, optional
         Told the number of states, or the part of one, that was done.
+    spectra : mapping of names to Spectrum, optional
+        In place of published ones, where the table was made so.
 
     Raises
     ------
+    OwnSpectraError
+        If these are not the spectra that the table was made with.
     InputError
-        If the table's header does not say for what skin and how it was built, a spectrum of the
-        user's own that it names cannot be read, or the table has no colour or too few states.
+        If the table's header does not say for what skin it was built, or the table has no colour
+        or too few states.
     """
-    skin = skin_of(table)
+    skin = skin_of(table.provenance)
+    model = Model(spectra or {}, table.provenance.get("readings", {}))
+    require_own_spectra(table.provenance, model)
     random = np.random.default_rng(seed)
     held = _between_knots(table, reachable_states(skin, 100, seed))
     states = random.choice(held, count, replace=len(held) < count)
     seen = table.plane("total_colour", states)
     specimens = [skin.at(state) for state in states]
-    model = model_of(table)
     told = progress or (lambda share: None)
     if not rays:
         return Check(states, difference(seen, _solved(specimens, model, told)))

@@ -17,6 +17,7 @@ from hylios.commands.shell import (
     add_work_arguments,
     chosen_skin,
     chosen_tanning_skin,
+    named_values,
     number,
     require_work,
     run,
@@ -26,7 +27,10 @@ from hylios.files import require_target
 from hylios.quadrature import FEWEST, MOST
 from hylios.skin import UNTANNED
 from hylios.skin.phototypes import PHOTOTYPES, phototype
+from hylios.spectra import published_spectra, with_own_spectrum
 from hylios.table import INTERPOLATIONS, read_table
+from hylios.table.kinds import printable
+from hylios.tissue import Model
 from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 from lut_builder.trade.pareto import (
     Point,
@@ -137,6 +141,13 @@ def _parser() -> argparse.ArgumentParser:
         type=int,
         default=0,
         help="per wavelength of a random walk (default: the solver, without noise)",
+    )
+    checking.add_argument(
+        "--own-spectrum",
+        action="append",
+        default=[],
+        metavar="NAME=FILE",
+        help="a spectrum of your own that the table was made with; repeatable",
     )
     add_work_arguments(checking)
 
@@ -344,13 +355,13 @@ def _info(asked: argparse.Namespace) -> None:
     table = read_table(asked.table)
     for name, value in table.provenance.items():
         if isinstance(value, dict) and value:
-            print(f"{name}:")
-            print("\n".join(f"  {each}: {setting}" for each, setting in value.items()))
+            print(f"{printable(name)}:")
+            print("\n".join(f"  {printable(f'{key}: {one}')}" for key, one in value.items()))
         elif name == "estimated_figures":
             print(f"{name}:")
-            print("\n".join(f"  {line}" for line in value))
+            print("\n".join(f"  {printable(line)}" for line in value))
         else:
-            print(f"{name}: {value}")
+            print(printable(f"{name}: {value}"))
     print(f"planes: {', '.join(table.planes)}")
     for name in ERRORS:
         if name in table.planes:
@@ -371,8 +382,19 @@ def _check(asked: argparse.Namespace) -> None:
         require_whole("number of rays", asked.rays, LEAST_RAYS, MOST_RAYS)
 
     from lut_builder.check import check
+    from lut_builder.own_spectra import OwnSpectraError, require_own_spectra
 
     table = read_table(asked.table)
+    spectra = published_spectra()
+    for name, path in named_values(asked.own_spectrum, "a spectrum of your own").items():
+        spectra = with_own_spectrum(spectra, name, Path(path))
+    try:
+        require_own_spectra(table.provenance, Model(spectra))
+    except OwnSpectraError as error:
+        if not error.missing:
+            raise
+        hint = " ".join(f"--own-spectrum {printable(name)}=FILE" for name in error.missing)
+        raise InputError(f"{str(error).removesuffix('.')}; give {hint}.") from error
     with _progress(asked.states, "states directly") as progress:
         result = check(
             table,
@@ -381,6 +403,7 @@ def _check(asked: argparse.Namespace) -> None:
             seed=asked.seed,
             threads=asked.threads,
             progress=progress,
+            spectra=spectra,
         )
     held = ", held by the table" if "state" in table.planes else ""
     print(f"states: {len(result.differences)}, reachable{held}, none of them a knot")

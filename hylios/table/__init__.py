@@ -8,17 +8,24 @@ from hylios.table.axes import STATE_NAMES, StateAxes
 from hylios.table.file import read_table
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.planes import MEANINGS, PLANES
-from hylios.table.provenance import described_dynamics, melanin_dynamics
-from hylios.table.schema import (
+from hylios.table.provenance import (
+    MinimalDoses,
+    absorptance,
+    described_dynamics,
+    melanin_dynamics,
+    minimal_doses,
+    own_spectra,
+    skin_of,
+)
+from hylios.table.schema import FORMAT, FORMAT_VERSION, require_provenance
+from hylios.table.skin_table import SkinTable
+from hylios.table.stored import (
     CHECKSUM_ATTRIBUTE,
-    FORMAT,
-    FORMAT_VERSION,
     HEADER_ATTRIBUTE,
     StoredTable,
     from_stored,
     to_stored,
 )
-from hylios.table.table import SkinTable
 
 __all__ = [
     "CHECKSUM_ATTRIBUTE",
@@ -29,12 +36,18 @@ __all__ = [
     "MEANINGS",
     "PLANES",
     "STATE_NAMES",
+    "MinimalDoses",
     "SkinTable",
     "StateAxes",
     "StoredTable",
+    "absorptance",
     "described_dynamics",
     "from_stored",
     "melanin_dynamics",
+    "minimal_doses",
+    "own_spectra",
     "read_table",
+    "require_provenance",
+    "skin_of",
     "to_stored",
 ]

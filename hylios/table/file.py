@@ -5,14 +5,9 @@ from pathlib import Path
 
 from hylios.errors import InputError
 from hylios.table.exr_reader import Picture, parse
-from hylios.table.schema import (
-    CHECKSUM_ATTRIBUTE,
-    FORMAT,
-    HEADER_ATTRIBUTE,
-    StoredTable,
-    from_stored,
-)
-from hylios.table.table import SkinTable
+from hylios.table.schema import FORMAT
+from hylios.table.skin_table import SkinTable
+from hylios.table.stored import CHECKSUM_ATTRIBUTE, HEADER_ATTRIBUTE, StoredTable, from_stored
 
 LARGEST_FILE = 64 * 2**20
 """Bytes; the largest tables have a hundredth."""

@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from hylios.errors import InputError
-from hylios.table.axes import AXIS_UNIT, STATE_NAMES
+from hylios.table.axes import AXIS_UNIT, LARGEST_COORDINATE, STATE_NAMES
 
 
 @dataclass(frozen=True)
@@ -22,26 +24,39 @@ class Meaning:
         `bands_nm` of the table's provenance.
     fits_half : bool
         Whether numbers of 16 bits can hold it.
+    low, high : float
+        Between which all its numbers are.
     """
 
     says: str
     unit: str
     components: tuple[str, ...] = ("R", "G", "B")
     fits_half: bool = True
+    low: float = 0.0
+    high: float = 1e30
 
+
+MOST_REFLECTANCE = 1.5
+"""Of a colour's channel or a band; a saturated colour has more than 1 in one channel."""
 
 MEANINGS = {
     "subsurface_colour": Meaning(
-        "light that has been inside the skin: the albedo of a shader", "linear Rec.709, D65"
+        "light that has been inside the skin: the albedo of a shader",
+        "linear Rec.709, D65",
+        high=MOST_REFLECTANCE,
     ),
     "total_colour": Meaning(
         "the same with the light that the surface reflects: what a measurement sees",
         "linear Rec.709, D65",
+        high=MOST_REFLECTANCE,
     ),
     "band_reflectance": Meaning(
-        "total reflectance at a wavelength", "share of the incident light", components=()
+        "total reflectance at a wavelength",
+        "share of the incident light",
+        components=(),
+        high=MOST_REFLECTANCE,
     ),
-    "profile_width": Meaning("width d of Burley's diffusion profile", "mm"),
+    "profile_width": Meaning("width d of Burley's diffusion profile", "mm", high=1e6),
     "colour_error": Meaning("estimated standard error of total_colour", "linear Rec.709, D65"),
     "profile_error": Meaning(
         "estimated standard error of the share of light that leaves within a distance, at the "
@@ -58,6 +73,8 @@ MEANINGS = {
         "here may lie, in each of the four, for the table to hold that state",
         AXIS_UNIT,
         components=(*STATE_NAMES, "within"),
+        low=-LARGEST_COORDINATE,
+        high=LARGEST_COORDINATE,
     ),
 }
 PLANES = tuple(MEANINGS)
@@ -82,3 +99,14 @@ def component_names(plane: str, provenance: Mapping[str, Any]) -> tuple[str, ...
     if not names or len(set(names)) < len(names):
         raise InputError(f"the plane {plane} needs wavelengths bands_nm that differ.")
     return names
+
+
+def require_values(plane: str, values: np.ndarray) -> None:
+    """Raise InputError unless all numbers of a plane are within what they can mean."""
+    meaning = MEANINGS[plane]
+    outside = values[~((values >= meaning.low) & (values <= meaning.high))]
+    if outside.size:
+        raise InputError(
+            f"the table's plane {plane} has a number of {outside[0]:g}; "
+            f"allowed is {meaning.low:g} to {meaning.high:g}."
+        )

@@ -1,11 +1,78 @@
-"""How a table's skin makes melanin, as its provenance holds it."""
+"""What a table's provenance says of its skin, as the objects that computations need.
+
+The one reader of a provenance, for the builder and the add-on.
+"""
 
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, fields
+from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
 from hylios.errors import InputError
+from hylios.skin import UNTANNED, Skin
+from hylios.skin.specimen import Specimen
+from hylios.sun.action_spectra import Absorptance
+from hylios.table.schema import PROVENANCE, dynamics_from
 from hylios.tanning import PIGMENTATIONS, MelaninDynamics
+
+
+@dataclass(frozen=True)
+class MinimalDoses:
+    """Doses in SED from which skin tans (`mmd`) and burns (`med`)."""
+
+    mmd: float
+    med: float
+
+
+def skin_of(provenance: Mapping[str, Any]) -> Skin:
+    """The skin that a table was made for.
+
+    Raises
+    ------
+    InputError
+        If the provenance lacks a part of it or a part cannot be used.
+    """
+    names = {sentence: name for name, sentence in UNTANNED.items()}
+    doses = minimal_doses(provenance)
+    return Skin(
+        specimen=Specimen(**_value(provenance, "specimen_parameters")),
+        pigmentation=_value(provenance, "pigmentation"),
+        mmd=doses.mmd,
+        med=doses.med,
+        dynamics=melanin_dynamics(provenance),
+        untanned=names[_value(provenance, "untanned_state")],
+    )
+
+
+def minimal_doses(provenance: Mapping[str, Any]) -> MinimalDoses:
+    """Minimal doses of a table's skin.
+
+    Raises
+    ------
+    InputError
+        If the provenance lacks one or it cannot be used.
+    """
+    return MinimalDoses(
+        mmd=float(_value(provenance, "mmd_sed")), med=float(_value(provenance, "med_sed"))
+    )
+
+
+def absorptance(provenance: Mapping[str, Any]) -> Absorptance:
+    """What the untanned skin of a table absorbs in the ultraviolet.
+
+    Raises
+    ------
+    InputError
+        If the provenance does not say it, as the first tables' does not, or it cannot be used.
+    """
+    if "absorptance" not in provenance:
+        raise InputError(
+            "the table does not say what its skin absorbs in the ultraviolet, as sun by date needs "
+            "it; give that exposure in SED, or build the table anew."
+        )
+    told = _value(provenance, "absorptance")
+    return Absorptance(np.array(told["wavelengths_nm"]), np.array(told["values"]))
 
 
 def described_dynamics(dynamics: MelaninDynamics) -> dict[str, float | list[float]]:
@@ -17,7 +84,7 @@ def described_dynamics(dynamics: MelaninDynamics) -> dict[str, float | list[floa
 
 
 def melanin_dynamics(provenance: Mapping[str, Any]) -> MelaninDynamics:
-    """How a table's skin makes melanin, from its provenance.
+    """How a table's skin makes melanin.
 
     The numbers in `melanin_dynamics`; a table that has none, as the first ones, says the name of
     a set of table 6.4 in `pigmentation`.
@@ -28,31 +95,29 @@ def melanin_dynamics(provenance: Mapping[str, Any]) -> MelaninDynamics:
         If neither can be used.
     """
     if "melanin_dynamics" in provenance:
-        return _dynamics_of(provenance["melanin_dynamics"])
-    name = provenance.get("pigmentation")
-    if not isinstance(name, str) or name not in PIGMENTATIONS:
-        allowed = ", ".join(PIGMENTATIONS)
-        raise InputError(f"the table's pigmentation is {name!r}; allowed are {allowed}.")
-    return PIGMENTATIONS[name]
+        return dynamics_from(_value(provenance, "melanin_dynamics"))
+    return PIGMENTATIONS[_value(provenance, "pigmentation")]
 
 
-def _dynamics_of(described: Any) -> MelaninDynamics:
-    rates = {each.name: each.default is MISSING for each in fields(MelaninDynamics)}
-    if not isinstance(described, dict) or set(described) != set(rates):
-        raise InputError(f"the table's melanin dynamics need the rates {', '.join(rates)}.")
-    held = {}
-    for name, per_layer in rates.items():
-        numbers = described[name] if per_layer else [described[name]]
-        count = 3 if per_layer else 1
-        if not isinstance(numbers, list) or list(map(_is_number, numbers)) != [True] * count:
-            expected = "3 numbers" if per_layer else "a number"
-            raise InputError(
-                f"the table's {name} is {str(described[name])[:40]}; expected {expected}."
-            )
-        values = [float(each) for each in numbers]
-        held[name] = tuple(values) if per_layer else values[0]
-    return MelaninDynamics(**held)
+def own_spectra(provenance: Mapping[str, Any]) -> dict[str, str | None]:
+    """Names of the spectra of the user's own that a table was made with, each with its digest.
+
+    The digest is None in a table of a builder that kept none. Where the files were is not told:
+    no file is opened because a table names it.
+
+    Raises
+    ------
+    InputError
+        If the provenance cannot be used.
+    """
+    names = _value(provenance, "own_figures") if "own_figures" in provenance else {}
+    digests = _value(provenance, "own_spectra_sha256") if "own_spectra_sha256" in provenance else {}
+    return {name: digests.get(name) for name in names}
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300
+def _value(provenance: Mapping[str, Any], key: str) -> Any:
+    """A value of the provenance that fits the schema; a table may have been made in memory."""
+    if key not in provenance:
+        raise InputError(f"the table does not say its {key.replace('_', ' ')}.")
+    PROVENANCE[key](key, provenance[key])
+    return provenance[key]

@@ -1,226 +1,273 @@
-"""How a table lies in the channels and attributes of an EXR file (`docs/table_format.md`)."""
+"""The schema of a table's header: its keys, and what their values may be, by format version.
 
-import hashlib
+Nothing else knows them: the file's reader and writer require them here, and what comes out of
+`hylios.table.provenance` has been through here. Libraries were weighed: jsonschema and pydantic do
+more and bring compiled parts, which the add-on, with numpy alone, cannot carry; so the kinds are a
+few functions of our own.
+"""
+
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.table.axes import AXIS_UNIT, STATE_NAMES, StateAxes, require_axes
+from hylios.skin import UNTANNED
+from hylios.skin.specimen import Specimen
+from hylios.sun.action_spectra import Absorptance
+from hylios.table.axes import LARGEST_COORDINATE, StateAxes, require_axes
 from hylios.table.interpolation import INTERPOLATIONS
+from hylios.table.kinds import (
+    Kind,
+    choice,
+    holding,
+    is_number,
+    list_of,
+    mapping_of,
+    number,
+    optional,
+    require_plain,
+    shown,
+    text,
+    truth,
+    unfit,
+    whole,
+)
 from hylios.table.planes import MEANINGS, component_names
-from hylios.table.table import SkinTable
+from hylios.tanning import PIGMENTATIONS, MelaninDynamics
 
 FORMAT = "skin tan table"
 FORMAT_VERSION = 3
-HEADER_ATTRIBUTE = "skinTanTable"
-CHECKSUM_ATTRIBUTE = "skinTanTableChecksum"
-HALF, FLOAT = np.dtype("<f2"), np.dtype("<f4")
 LONGEST_HEADER = 1_000_000
+
+MOST_STATES, MOST_KNOTS, MOST_AXES, MOST_PLANES, MOST_BANDS = 20_000, 100, 4, 100, 100
+FIRST_NM, LAST_NM = 250.0, 2500.0
+"""Of the spectra."""
+
+_SED = number(0.01, 1000.0, "SED")
+_STATES = whole(0, MOST_STATES)
+_BANDS = list_of(number(FIRST_NM, LAST_NM, "nm"), 0, MOST_BANDS)
+
+
+def _specimen(name: str, value: Any) -> None:
+    holding({"name": text, "melanosome_arrangement": text})(name, value)
+    known = {field.name: field.default is MISSING for field in fields(Specimen)}
+    for key in value:
+        if key not in known:
+            raise InputError(f"the table's {name} has {shown(key)}, which no specimen has.")
+    for key, is_needed in known.items():
+        if is_needed and key not in value:
+            raise InputError(f"the table's {name} has no {key}.")
+    try:
+        Specimen(**value)
+    except (InputError, TypeError, ValueError) as error:
+        raise InputError(f"the table's {name} is of no skin: {error}") from error
+
+
+def _dynamics(name: str, value: Any) -> None:
+    rates = {field.name: field.default is MISSING for field in fields(MelaninDynamics)}
+    if not isinstance(value, Mapping) or set(value) != set(rates):
+        raise InputError(f"the table's melanin dynamics need the rates {', '.join(rates)}.")
+    for rate, is_per_layer in rates.items():
+        numbers = value[rate] if is_per_layer else [value[rate]]
+        count = 3 if is_per_layer else 1
+        if not isinstance(numbers, list | tuple) or [*map(is_number, numbers)] != [True] * count:
+            raise unfit(rate, value[rate], "3 numbers" if is_per_layer else "a number")
+    dynamics_from(value)
+
+
+def dynamics_from(described: Mapping[str, Any]) -> MelaninDynamics:
+    """Melanin dynamics from the numbers in a header, which have been required to fit.
+
+    Raises
+    ------
+    InputError
+        If a rate is out of its range.
+    """
+    rates: dict[str, Any] = {
+        name: tuple(map(float, value)) if isinstance(value, list | tuple) else float(value)
+        for name, value in described.items()
+    }
+    return MelaninDynamics(**rates)
+
+
+def _absorptance(name: str, value: Any) -> None:
+    pair = list_of(number(0.0, 10_000.0), 2, 10_000)
+    holding({"wavelengths_nm": pair, "values": pair})(name, value)
+    try:
+        Absorptance(np.array(value["wavelengths_nm"]), np.array(value["values"]))
+    except InputError as error:
+        raise InputError(f"the table's {name} cannot be used: {error}") from error
+
+
+PROVENANCE: dict[str, Kind] = {
+    "software": text,
+    "skin": optional(text),
+    "specimen": text,
+    "specimen_parameters": _specimen,
+    "untanned_state": choice(tuple(UNTANNED.values())),
+    "pigmentation": choice(tuple(PIGMENTATIONS)),
+    "melanin_dynamics": _dynamics,
+    "mmd_sed": _SED,
+    "med_sed": _SED,
+    "solver": text,
+    "settings": holding(
+        {},
+        {
+            "knots": list_of(whole(1, MOST_KNOTS), 1, MOST_AXES),
+            "colour_wavelengths": whole(0, 1000),
+            "bands": _BANDS,
+            "profile_error": number(0.0, 1.0),
+            "profile_wavelengths": whole(0, 1000),
+            "nodes": whole(1, 1000),
+            "interpolation": choice(INTERPOLATIONS),
+            "half": truth,
+        },
+    ),
+    "readings": mapping_of(text),
+    "own_figures": mapping_of(text),
+    "own_spectra_sha256": mapping_of(text),
+    "bands_nm": _BANDS,
+    "angle_deg": number(0.0, 90.0, "degrees"),
+    "seed": whole(0, 2**32 - 1),
+    "states_computed": _STATES,
+    "states_for_any_sun": _STATES,
+    "states_with_melanin_cut": _STATES,
+    "colour": text,
+    "profile_width_unit": text,
+    "estimated_figures": list_of(text, 0, 1000),
+    "absorptance": _absorptance,
+}
+"""Of the provenance, in which each key may be missing; other keys may hold any plain value."""
+
+_COORDINATES = number(-LARGEST_COORDINATE, LARGEST_COORDINATE)
+_AXIS = holding(
+    {
+        "direction": list_of(number(-1.1, 1.1), 4, 4),
+        "knots": list_of(_COORDINATES, 1, MOST_STATES),
+    },
+    {"name": text, "unit": text},
+)
+_HEADERS: dict[int, dict[str, Kind]] = {
+    3: {
+        "interpolation": choice(INTERPOLATIONS),
+        "axes": holding(
+            {
+                "untanned": list_of(number(1e-6, 1e3), 4, 4),
+                "list": list_of(_AXIS, 1, MOST_AXES),
+            },
+            {"state": list_of(text, 4, 4)},
+        ),
+        "planes": mapping_of(
+            holding({"components": list_of(text, 1, MOST_BANDS)}, {"unit": text, "says": text})
+        ),
+        "provenance": holding({}),
+    }
+}
+"""What the header of a format version must have, besides `format` and `format_version`."""
 
 
 @dataclass(frozen=True)
-class StoredTable:
-    """A table as its file holds it.
+class Header:
+    """What a header says.
 
     Attributes
     ----------
-    channels : mapping of names to (rows, columns) arrays of 16 or 32 bit floats
-        The top row first.
-    header : str
-        JSON text.
-    checksum : str
-        SHA-256 of the header and all channels, in hexadecimal.
+    axes : StateAxes
+    components : mapping of planes' names to tuples of str
+        Of the planes whose meaning is known here.
+    provenance : dict
+    interpolation : str
     """
 
-    channels: Mapping[str, np.ndarray]
-    header: str
-    checksum: str
+    axes: StateAxes
+    components: dict[str, tuple[str, ...]]
+    provenance: dict[str, Any]
+    interpolation: str
 
 
-def to_stored(table: SkinTable, *, half: bool = False) -> StoredTable:
-    """A table as its file holds it, with floats of 32 bits, or of 16 where they will do.
+def parsed(header: str) -> Header:
+    """What a header's JSON says.
 
     Raises
     ------
     InputError
-        If the table is not one that could be read again.
+        If it is no header of a format that is read here, lacks a key or has a value that does not
+        fit.
     """
-    _require_planes(tuple(table.planes))
-    _require_interpolation(table.interpolation)
-    require_axes(table.axes)
-    planes, channels = {}, {}
-    for name, values in table.planes.items():
-        if name not in MEANINGS:
-            raise InputError(f"there is no plane {name!r}; there are {', '.join(MEANINGS)}.")
-        meaning, components = MEANINGS[name], component_names(name, table.provenance)
-        if values.shape != (*table.axes.shape, len(components)):
-            raise InputError(
-                f"the plane {name} has shape {values.shape}; its axes and components give "
-                f"{(*table.axes.shape, len(components))}."
-            )
-        planes[name] = {
-            "components": list(components),
-            "unit": meaning.unit,
-            "says": meaning.says,
-        }
-        dtype = HALF if half and meaning.fits_half else FLOAT
-        for component, numbers in zip(components, np.moveaxis(values, -1, 0), strict=True):
-            channels[f"{name}.{component}"] = _pixels(name, numbers, dtype)
-    try:
-        header = json.dumps(_header(table, planes), allow_nan=False)
-    except ValueError as error:
-        raise InputError("the table's provenance has a number that is not finite.") from error
-    return StoredTable(channels, header, _checksum(header, channels))
-
-
-def from_stored(stored: StoredTable) -> SkinTable:
-    """The table in what a file holds; planes of a meaning that is not known here are left out.
-
-    Raises
-    ------
-    InputError
-        If the checksum or the header's description does not fit, or if no table can be like it.
-    """
-    if _checksum(stored.header, stored.channels) != stored.checksum:
-        raise InputError("the table does not match its checksum.")
-    header = _parsed(stored.header)
-    try:
-        components = {
-            name: tuple(map(str, described["components"]))
-            for name, described in header["planes"].items()
-            if name in MEANINGS
-        }
-        axes = StateAxes(
-            untanned=_numbers(header["axes"]["untanned"]),
-            basis=_numbers([axis["direction"] for axis in header["axes"]["list"]]).T,
-            knots=tuple(_numbers(axis["knots"]) for axis in header["axes"]["list"]),
-        )
-        provenance, interpolation = header["provenance"], header["interpolation"]
-    except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
-        raise InputError(f"the table's header is incomplete: {str(error)[:80]!r}.") from error
-    require_axes(axes)
-    _require_planes(tuple(components))
-    _require_interpolation(interpolation)
-    if not isinstance(provenance, dict):
-        raise InputError("the table does not say what made it.")
-    for name, found in components.items():
-        if found != component_names(name, provenance):
-            raise InputError(f"the table's plane {name} has the components {', '.join(found)}.")
-    return SkinTable(
-        axes=axes,
-        planes={
-            name: np.stack([_values(stored, f"{name}.{each}", axes) for each in own], axis=-1)
-            for name, own in components.items()
-        },
-        provenance=provenance,
-        interpolation=interpolation,
+    content = _content(header)
+    require_plain("header", content)
+    for key, kind in _HEADERS[content["format_version"]].items():
+        if key not in content:
+            raise InputError(f"the table's header has no {key}.")
+        kind(key, content[key])
+    require_provenance(content["provenance"])
+    listed = content["axes"]["list"]
+    axes = StateAxes(
+        untanned=np.array(content["axes"]["untanned"], dtype=float),
+        basis=np.array([axis["direction"] for axis in listed], dtype=float).T,
+        knots=tuple(np.array(axis["knots"], dtype=float) for axis in listed),
     )
-
-
-def _header(table: SkinTable, planes: dict[str, Any]) -> dict[str, Any]:
-    directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
-    return {
-        "format": FORMAT,
-        "format_version": FORMAT_VERSION,
-        "interpolation": table.interpolation,
-        "axes": {
-            "state": list(STATE_NAMES),
-            "untanned": table.axes.untanned.tolist(),
-            "list": [
-                {
-                    "name": f"principal axis {number}",
-                    "unit": AXIS_UNIT,
-                    "direction": direction.tolist(),
-                    "knots": knots.tolist(),
-                }
-                for number, (direction, knots) in enumerate(directions, start=1)
-            ],
-        },
-        "planes": planes,
-        "provenance": table.provenance,
+    require_axes(axes)
+    components = {
+        name: tuple(described["components"])
+        for name, described in content["planes"].items()
+        if name in MEANINGS
     }
+    require_planes(tuple(components))
+    for name, listed in components.items():
+        expected = component_names(name, content["provenance"])
+        if listed != expected:
+            raise InputError(
+                f"the table's plane {name} has the components {shown(', '.join(listed))}; "
+                f"expected {', '.join(expected)}."
+            )
+    return Header(axes, components, content["provenance"], content["interpolation"])
 
 
-def _pixels(plane: str, numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
-    """A component over the knots as pixels: the first axis along rows, the second down fastest."""
-    with np.errstate(over="ignore"):
-        pixels = np.ascontiguousarray(numbers.T.reshape(-1, len(numbers)), dtype=dtype)
-    if not np.all(np.isfinite(pixels)):
-        raise InputError(
-            f"the plane {plane} has a number that is not finite or above {np.finfo(dtype).max:g}."
-        )
-    return pixels
+def require_provenance(provenance: Mapping[str, Any]) -> None:
+    """Raise InputError where a key of a provenance that is known here has a value that is unfit."""
+    require_plain("provenance", provenance)
+    for key, kind in PROVENANCE.items():
+        if key in provenance:
+            kind(key, provenance[key])
 
 
-def _values(stored: StoredTable, name: str, axes: StateAxes) -> np.ndarray:
-    """The way back from `_pixels`."""
-    if name not in stored.channels:
-        raise InputError(f"the table has no channel {name}, which its header names.")
-    pixels = stored.channels[name]
-    shape = (int(np.prod(axes.shape[1:])), axes.shape[0])
-    if pixels.shape != shape:
-        raise InputError(
-            f"the table's channel {name} has shape {pixels.shape}; its header describes {shape}."
-        )
-    if not np.all(np.isfinite(pixels)):
-        raise InputError(f"the table's channel {name} has a number that is not finite.")
-    return pixels.astype(float).reshape(axes.shape[::-1]).T
-
-
-def _checksum(header: str, channels: Mapping[str, np.ndarray]) -> str:
-    digest = hashlib.sha256(header.encode())
-    for name in sorted(channels):
-        pixels = channels[name]
-        rows, columns = pixels.shape
-        pixel_type = "half" if pixels.dtype == HALF else "float"
-        digest.update(f"\n{name} {pixel_type} {rows} {columns}\n".encode())
-        digest.update(np.ascontiguousarray(pixels).tobytes())
-    return digest.hexdigest()
-
-
-def _require_interpolation(name: Any) -> None:
-    if name not in INTERPOLATIONS:
-        raise InputError(
-            f"the table's interpolation is {str(name)[:20]!r}; allowed are "
-            f"{', '.join(INTERPOLATIONS)}."
-        )
-
-
-def _require_planes(names: tuple[str, ...]) -> None:
+def require_planes(names: tuple[str, ...]) -> None:
+    """Raise InputError unless a table has planes."""
     if not names:
         raise InputError("the table has no plane that has a meaning.")
 
 
-def _parsed(text: str) -> dict[str, Any]:
-    if len(text) > LONGEST_HEADER:
+def require_interpolation(name: Any) -> None:
+    """Raise InputError unless there is such an interpolation."""
+    choice(INTERPOLATIONS)("interpolation", name)
+
+
+def _content(header: str) -> dict[str, Any]:
+    if len(header) > LONGEST_HEADER:
         raise InputError(
-            f"the table's header has {len(text)} characters; allowed are {LONGEST_HEADER}."
+            f"the table's header has {len(header)} characters; allowed are {LONGEST_HEADER}."
         )
     try:
-        header = json.loads(text, parse_float=_finite, parse_constant=_finite)
+        content = json.loads(header, parse_float=_finite, parse_constant=_finite)
     except (RecursionError, ValueError) as error:
         raise InputError(f"the table's header is not JSON: {str(error)[:80]}.") from error
-    if not isinstance(header, dict) or header.get("format") != FORMAT:
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"the file is not a {FORMAT}.")
-    version = header.get("format_version")
-    if version != FORMAT_VERSION:
+    version = content.get("format_version")
+    if isinstance(version, bool) or not isinstance(version, int) or version not in _HEADERS:
         raise InputError(
-            f"the table has format version {str(version)[:20]}; this program reads "
-            f"{FORMAT_VERSION}."
+            f"the table has format version {shown(version)}; this program reads "
+            f"{', '.join(map(str, _HEADERS))}."
         )
-    return header
+    return content
 
 
-def _finite(text: str) -> float:
-    number = float(text)
-    if not np.isfinite(number):
-        raise ValueError(f"{text[:20]} is no finite number")
-    return number
-
-
-def _numbers(listed: Any) -> np.ndarray:
-    return np.array(listed, dtype=float)
+def _finite(literal: str) -> float:
+    value = float(literal)
+    if not np.isfinite(value):
+        raise ValueError(f"{literal[:20]} is no finite number")
+    return value

@@ -208,7 +208,8 @@ def _protection(asked: argparse.Namespace) -> Protection:
         film = sunscreen_film(*read_transmittance(asked.sunscreen), amount)
         passed = film.of_sunlight()
         spf = f"{1.0 / passed:.3g}" if passed > 0.0 else "infinite"
-        print(f"note: {asked.sunscreen} at {amount:g} mg/cm^2 is an SPF of {spf}", file=sys.stderr)
+        name = name_of(asked.sunscreen)
+        print(f"note: {name} at {amount:g} mg/cm^2 is an SPF of {spf}", file=sys.stderr)
         layers.append(film)
     elif asked.sunscreen_amount is not None:
         raise InputError("--sunscreen-amount is given without --spf or --sunscreen.")

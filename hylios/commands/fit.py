@@ -16,6 +16,7 @@ from hylios.commands.shell import (
 from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
 from hylios.readers.spectrum import read_spectrum
+from hylios.readers.text import shown
 from hylios.skin.specimen_file import specimen_toml
 
 
@@ -58,14 +59,14 @@ def run(asked: argparse.Namespace) -> None:
     if asked.srgb is not None:
         wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
         found = fit_colour(start, _colour(asked.srgb), **light)
-        target = f"the colour {asked.srgb}"
+        target = f"the colour {shown(asked.srgb)}"
         error = f"{np.linalg.norm(found.residual):.2f} off in L*a*b* (CIE76)"
     else:
         measured = read_spectrum(asked.spectrum, asked.column)
         wavelengths = _wavelengths(asked.wavelengths, measured.wavelengths)
         reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
         found = fit_spectrum(start, wavelengths, reflectance, **light)
-        target = f"{measured.name}, {asked.column}, at {wavelengths.size} wavelengths"
+        target = f"{measured.name}, {shown(asked.column)}, at {wavelengths.size} wavelengths"
         error = f"root mean square error {found.rmse:.4f}"
     note_estimates(model, wavelengths)
     for line in (f"Fitted to {target}: {error}.", *found.remarks()):
@@ -94,4 +95,10 @@ def _colour(text: str) -> np.ndarray:
     values = np.array([number(part, "a part of --srgb") for part in text.split(",")])
     if values.shape != (3,) or not np.all((values >= 0.0) & (values <= 255.0)):
         raise InputError(f"--srgb is {text!r}; allowed are three numbers from 0 to 255.")
+    if np.all(values <= 1.0):
+        given = ",".join(f"{255.0 * value:.4g}" for value in values)
+        raise InputError(
+            f"--srgb is {text!r}, darker than any skin; allowed are numbers from 0 to 255, and "
+            f"a colour of 0 to 1 is given as {given}."
+        )
     return values / 255.0

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from hylios.files import require_target
 from hylios.readers.spectrum import read_spectra
+from hylios.readers.text import shown
 
 
 def add_to(commands) -> None:
@@ -29,4 +30,5 @@ def run(asked: argparse.Namespace) -> None:
     from hylios.lab.pictures import spectra_figure, write_figure  # matplotlib takes a second
 
     write_figure(spectra_figure(spectra), asked.output)
-    print(f"wrote {asked.output}: {', '.join(each.name for each in spectra)}")
+    names = ", ".join(spectrum.name for spectrum in spectra)
+    print(f"wrote {shown(asked.output)}: {names}")

@@ -1,14 +1,15 @@
 """What the project's shell commands share: how they end, and how arguments are read."""
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from hylios.commands.streams import discard_output, prepare_streams
 from hylios.errors import InputError, require_whole
+from hylios.readers.text import shown
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.specimen import Specimen, parameters, with_values
@@ -27,27 +28,26 @@ def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Names
     Of Ctrl-C one word is said, or what the command gave the KeyboardInterrupt to say.
     """
     try:
+        prepare_streams()
         command(arguments)
         sys.stdout.flush()
     except InputError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {shown(str(error))}", file=sys.stderr)
+        return 2
+    except MemoryError:
+        print("error: there is not enough memory for this.", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(str(interrupt) or "cancelled", file=sys.stderr)
         return 130
     except BrokenPipeError:
-        _discard_output()
+        discard_output()
         return 1
     except OSError as error:
-        print(f"error: {error}.", file=sys.stderr)
-        _discard_output()
+        print(f"error: {shown(str(error))}.", file=sys.stderr)
+        discard_output()
         return 2
     return 0
-
-
-def _discard_output() -> None:
-    """Keep the interpreter from failing once more on output that has nowhere to go."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:

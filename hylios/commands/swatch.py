@@ -15,12 +15,16 @@ from hylios.commands.shell import (
 from hylios.errors import InputError, require_range, require_whole
 from hylios.files import require_target
 from hylios.readers.spectrum import NamedSpectrum, read_spectra
+from hylios.readers.text import shown
 
 DESCRIPTION = """\
 One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.
 Visible: the colour under D65. Ultraviolet (250 to 400 nm) and infrared (700 to 2500 nm): the mean
 reflectance as a grey, tinted violet or red; the tint is this project's choice.
 """
+
+MOST_PIXELS = 2**26
+"""Of a picture: a quarter of a gigabyte while it is written."""
 
 
 def add_to(commands) -> None:
@@ -47,6 +51,7 @@ def run(asked: argparse.Namespace) -> None:
     size = require_whole("size", asked.size, 1, 4096)
     if asked.files and (asked.specimen or asked.set or asked.reading or asked.own_spectrum):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
+    _require_room(max(len(asked.files), 1), size)
     spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
 
     from hylios.lab.colour import srgb, swatch
@@ -59,7 +64,17 @@ def run(asked: argparse.Namespace) -> None:
     write_pixels(pixels, asked.output)
     codes = ("#{:02x}{:02x}{:02x}".format(*pixel) for pixel in pixels[0, ::size])
     named = ", ".join(f"{each.name} {code}" for each, code in zip(spectra, codes, strict=True))
-    print(f"wrote {asked.output}: {named}")
+    print(f"wrote {shown(asked.output)}: {named}")
+
+
+def _require_room(count: int, size: int) -> None:
+    """Raise InputError where squares side by side would be too large a picture."""
+    pixels = count * size**2
+    if pixels > MOST_PIXELS:
+        raise InputError(
+            f"{count} squares of {size} pixels have {pixels} in all; allowed are {MOST_PIXELS}, "
+            f"which is a size of {int((MOST_PIXELS / count) ** 0.5)}."
+        )
 
 
 def _simulated(asked: argparse.Namespace) -> NamedSpectrum:

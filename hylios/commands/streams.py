@@ -1,0 +1,43 @@
+"""Standard streams as commands need them, whatever a shell has done to them."""
+
+import os
+import sys
+
+from hylios.errors import InputError
+
+
+def prepare_streams() -> None:
+    """Make standard streams safe to use; call it before a command runs.
+
+    Where a shell closed one (`2>&-`), what is opened next would get its number, and Python would
+    print to standard output what is meant for standard error. A name that a stream cannot encode
+    is escaped.
+
+    Raises
+    ------
+    InputError
+        If standard output is closed: there is nowhere to print to.
+    """
+    for number in (0, 1, 2):
+        _occupy(number)
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+        raise InputError("standard output is closed; there is nowhere to print to.")
+
+
+def discard_output() -> None:
+    """Keep the interpreter from failing once more on output that has nowhere to go."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _occupy(number: int) -> None:
+    """Open a descriptor that is closed; those below it are open, so it is the next."""
+    try:
+        os.fstat(number)
+    except OSError:
+        os.open(os.devnull, os.O_RDWR)

@@ -1,0 +1,140 @@
+"""The commands in a shell that closes streams, names files oddly and asks for too much."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+HYLIOS = f"{sys.executable} -m hylios.commands.cli"
+SPECTRUM = "wavelength_nm,total\n400,0.2\n700,0.6\n"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "arm.csv").write_text(SPECTRUM)
+    return tmp_path
+
+
+def shell(folder, command, **variables):
+    """What a shell's command ends with: status, standard output and error as bytes."""
+    root = str(Path(__file__).parents[3])
+    environment = {**os.environ, "PYTHONPATH": root, **variables}
+    command = command.replace("hylios ", f"{HYLIOS} ", 1)
+    return subprocess.run(
+        ["sh", "-c", command], cwd=folder, capture_output=True, env=environment, timeout=120
+    )
+
+
+def test_a_closed_standard_error_puts_no_notes_into_the_csv(folder):
+    command = "hylios dose --sun 2025-06-21:12-13 --latitude 50"
+    whole, without = shell(folder, command), shell(folder, f"{command} 2>&-")
+    assert b"note:" in whole.stderr
+    assert whole.stdout.startswith(b"hour,") and whole.stdout.count(b"\n") == 2
+    assert (without.returncode, without.stdout) == (0, whole.stdout)
+
+
+def test_a_closed_standard_output_is_one_sentence(folder):
+    ended = shell(folder, "hylios tan --hours 2 >&-")
+    assert ended.returncode == 2
+    assert ended.stderr == b"error: standard output is closed; there is nowhere to print to.\n"
+    assert shell(folder, "hylios tan --hours 2 >&- 2>&-").returncode == 2
+
+
+def test_a_closed_standard_input_matters_only_where_it_is_read(folder):
+    ended = shell(folder, "hylios plot - -o p.svg <&-")
+    assert ended.returncode == 2
+    assert ended.stderr == b"error: standard input cannot be read: it is closed.\n"
+    ended = shell(folder, "hylios plot arm.csv -o p.svg <&-")
+    assert (ended.returncode, ended.stdout) == (0, b"wrote p.svg: arm\n")
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii", "utf-8"])
+@pytest.mark.parametrize("name", ["спектр".encode(), b"\xff", b"a\nb"])
+def test_any_name_of_a_file_can_be_drawn_and_said(folder, name, encoding):
+    os.rename(folder / "arm.csv", os.path.join(os.fsencode(folder), name + b".csv"))
+    command = "hylios plot *.csv -o p.svg"
+    ended = shell(folder, command, PYTHONIOENCODING=encoding)
+    assert (ended.returncode, ended.stderr) == (0, b"")
+    assert ended.stdout.startswith(b"wrote p.svg: ") and ended.stdout.count(b"\n") == 1
+    assert (folder / "p.svg").stat().st_size > 1000
+
+
+def test_a_name_with_a_line_break_is_shown_on_one_line(folder):
+    ended = shell(folder, "hylios plot 'a\nb.csv' -o p.svg")
+    assert ended.returncode == 2
+    assert ended.stderr == b"error: a\\nb.csv cannot be read: No such file or directory.\n"
+    ended = shell(folder, "hylios plot arm.csv -o 'a\nb.svg'")
+    assert ended.stdout == b"wrote a\\nb.svg: arm\n"
+
+
+@pytest.mark.parametrize("command", ["plot arm.csv", "swatch arm.csv", "swatch"])
+def test_an_empty_name_of_the_output_is_refused(folder, command):
+    ended = shell(folder, f"hylios {command} -o ''")
+    assert ended.returncode == 2
+    assert ended.stderr.startswith(b"error: the file is to be .; its name must end in .png")
+
+
+def test_too_many_squares_are_refused_before_any_work(folder):
+    ended = shell(folder, f"hylios swatch {'arm.csv ' * 300} --size 4096 -o s.png")
+    assert ended.returncode == 2
+    assert b"300 squares of 4096 pixels have 5033164800 in all; allowed are 67108864" in (
+        ended.stderr
+    )
+    assert shell(folder, f"hylios swatch {'arm.csv ' * 300} --size 2 -o s.png").returncode == 0
+    assert imread(folder / "s.png").shape[:2] == (2, 600)
+
+
+def test_a_spectrum_at_the_ends_of_floating_point_is_refused(folder):
+    for row in ("1e308,0.5", "-1e308,0.5", "400,1e308", "400,-1e308"):
+        (folder / "arm.csv").write_text(f"wavelength_nm,total\n{row}\n")
+        ended = shell(folder, "hylios plot arm.csv -o p.svg")
+        assert ended.returncode == 2
+        assert ended.stderr.count(b"\n") == 1 and b"in line 2; allowed is" in ended.stderr
+
+
+def test_a_fifo_or_an_endless_file_is_refused_at_once(folder):
+    os.mkfifo(folder / "fifo")
+    for name in ("fifo", "/dev/zero"):
+        ended = shell(folder, f"hylios plot {name} -o p.svg")
+        assert ended.returncode == 2
+        assert b"it is no regular file; - is standard input" in ended.stderr
+    ended = shell(folder, "hylios plot - -o p.svg < /dev/zero")
+    assert ended.returncode == 2
+    assert b"standard input has more than 16777216 bytes" in ended.stderr
+
+
+def test_excels_padding_marks_and_utf_16_on_standard_input(folder):
+    """The same colour by path and by standard input, with and without a byte-order mark."""
+    rows = [f"{400 + 10 * step},{0.2 + step / 75:.4f}" for step in range(31)]
+    text = "\n".join(["wavelength_nm,total", *rows, ",", ","]) + "\n"
+    said = set()
+    for encoding in ("utf-8", "utf-8-sig", "utf-16"):
+        (folder / "arm.csv").write_bytes(text.encode(encoding))
+        for command in ("swatch arm.csv", "swatch - < arm.csv"):
+            ended = shell(folder, f"hylios {command} --force -o s.png")
+            assert ended.returncode == 0, ended.stderr
+            said.add(ended.stdout.split()[-1])
+    assert len(said) == 1
+    pixel = np.round(255 * imread(folder / "s.png")[0, 0, :3]).astype(int)
+    assert "#{:02x}{:02x}{:02x}".format(*pixel).encode() in said
+
+
+def test_a_colour_of_0_to_1_is_not_taken_for_one_of_0_to_255(folder):
+    ended = shell(folder, "hylios fit --srgb 0.7,0.6,0.5")
+    assert ended.returncode == 2
+    assert b"a colour of 0 to 1 is given as 178.5,153,127.5." in ended.stderr
+    assert ended.stdout == b""
+
+
+def test_a_name_with_a_line_break_writes_no_line_of_a_fit(folder):
+    rows = "".join(f"{nm},0.3\n" for nm in range(400, 701, 50))
+    (folder / "a\noxygenated_blood = 0.csv").write_text(f"wavelength_nm,total\n{rows}")
+    ended = shell(folder, "hylios fit --free melanin --spectrum a?o*.csv > own.toml")
+    assert ended.returncode == 0, ended.stderr
+    text = (folder / "own.toml").read_text()
+    assert text.startswith("# Fitted to a\\noxygenated_blood = 0, total, at 7 wavelengths")
+    assert shell(folder, "hylios specimen own.toml").returncode == 0

@@ -54,7 +54,7 @@ def burley_width(edges: np.ndarray, weights: np.ndarray) -> float | np.ndarray:
 
     grid = np.linspace(np.log(ends[0] / 3.0), np.log(ends[-1]), GRID)
     shape = measured.shape[:-1]
-    best = np.argmin([misfit(np.full(shape, each)) for each in grid], axis=0)
+    best = np.argmin([misfit(np.full(shape, width)) for width in grid], axis=0)
     low, high = grid[np.maximum(best - 1, 0)], grid[np.minimum(best + 1, GRID - 1)]
     width = np.exp(_golden_minimum(misfit, low, high, grid[2] - grid[0]))
     return width if shape else float(width)

@@ -185,10 +185,10 @@ class _Problem:
         matrix[:, np.arange(unknowns), unknowns + channel] = 1.0
         pull = np.tensordot(self.curvature, self.full, 2)
         target = np.concatenate([pull[channel, node], np.ones((batch, 3))], axis=1)
-        found = np.linalg.solve(matrix, target[..., None])[:, :unknowns, 0]
+        weights = np.linalg.solve(matrix, target[..., None])[:, :unknowns, 0]
         quadratic = np.einsum(
-            "bi,bij,bj->b", found, matrix[:, :unknowns, :unknowns], found, optimize=True
+            "bi,bij,bj->b", weights, matrix[:, :unknowns, :unknowns], weights, optimize=True
         )
-        linear = np.sum(found * pull[channel, node], axis=1)
+        linear = np.sum(weights * pull[channel, node], axis=1)
         errors = quadratic - 2.0 * linear + np.sum(self.full * pull)
-        return found.reshape(batch, 3, count), errors
+        return weights.reshape(batch, 3, count), errors

@@ -95,9 +95,10 @@ class Specimen:
                 f"melanosome_arrangement is {self.melanosome_arrangement!r}; "
                 f"allowed is {', '.join(ARRANGEMENTS)}."
             )
-        for each in parameters():
-            value, limits = _number(each.name, getattr(self, each.name)), each.metadata
-            require_range(each.name, value, limits["low"], limits["high"], _unit(each))
+        for parameter in parameters():
+            name, limits = parameter.name, parameter.metadata
+            value = _number(name, getattr(self, name))
+            require_range(name, value, limits["low"], limits["high"], _unit(parameter))
         for layer, content in zip(reversed(EPIDERMIS), self.melanin, strict=True):
             if content > 1.0 + 1e-9:
                 raise InputError(
@@ -134,7 +135,7 @@ class Specimen:
 
 def parameters():
     """The numeric fields of `Specimen`, with unit, range and meaning in their metadata."""
-    return [each for each in fields(Specimen) if each.metadata]
+    return [parameter for parameter in fields(Specimen) if parameter.metadata]
 
 
 def _unit(parameter) -> str:
@@ -160,11 +161,15 @@ def specimen_of(values: Mapping[str, Any], *, allow_unphysical: bool = False) ->
         If a field is unknown, missing or no number, or lies outside its physiological range (with
         `allow_unphysical`, outside its possible range).
     """
-    known = {each.name: each for each in fields(Specimen)}
+    names = [field.name for field in fields(Specimen)]
     for name in values:
-        if name not in known:
-            raise InputError(f"there is no parameter {name!r}; there are {', '.join(known)}.")
-    missing = [name for name in known if known[name].default is MISSING and name not in values]
+        if name not in names:
+            raise InputError(f"there is no parameter {name!r}; there are {', '.join(names)}.")
+    missing = [
+        field.name
+        for field in fields(Specimen)
+        if field.default is MISSING and field.name not in values
+    ]
     if missing:
         raise InputError(f"the specimen lacks {', '.join(missing)}.")
     if not allow_unphysical:
@@ -179,16 +184,17 @@ def specimen_of(values: Mapping[str, Any], *, allow_unphysical: bool = False) ->
 
 
 def _require_physiological_ranges(values: Mapping[str, Any]) -> None:
-    for each in parameters():
-        if each.name not in values:
+    for parameter in parameters():
+        name = parameter.name
+        if name not in values:
             continue
-        value, known = _number(each.name, values[each.name]), PHYSIOLOGY[each.name]
-        if not known.holds(value):
-            unit = f" {_unit(each)}".rstrip()
-            low, high = each.metadata["low"], each.metadata["high"]
+        value, physiology = _number(name, values[name]), PHYSIOLOGY[name]
+        if not physiology.holds(value):
+            unit = f" {_unit(parameter)}".rstrip()
+            low, high = parameter.metadata["low"], parameter.metadata["high"]
             raise InputError(
-                f"{each.name} is {value:g}{unit}; physiological is {known.low:g} to "
-                f"{known.high:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
+                f"{name} is {value:g}{unit}; physiological is {physiology.low:g} to "
+                f"{physiology.high:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
                 "--allow-unphysical."
             )
 
@@ -294,7 +300,7 @@ def _melanosome_share(specimen: Specimen, layer: str) -> float:
     whole = specimen.melanin.sum()
     if whole == 0:
         return 0.0
-    return 0.01 * sum(getattr(specimen, f"{each}_melanosomes") for each in EPIDERMIS) / whole
+    return 0.01 * sum(getattr(specimen, f"{other}_melanosomes") for other in EPIDERMIS) / whole
 
 
 _LIGHT = {

@@ -45,21 +45,20 @@ def _values(path: Path) -> dict[str, Any]:
     raise InputError(f"the specimen in {path} cannot be read: {reason}.")
 
 
-def specimen_toml(held: Specimen) -> str:
+def specimen_toml(specimen: Specimen) -> str:
     """The specimen as TOML that `read_specimen` turns into an equal one.
 
     A comment on each line gives the unit, the physiological range and the meaning.
     """
     lines = [
-        f"name = {_quoted(held.name)}",
-        f"melanosome_arrangement = {_quoted(held.melanosome_arrangement)}",
+        f"name = {_quoted(specimen.name)}",
+        f"melanosome_arrangement = {_quoted(specimen.melanosome_arrangement)}",
     ]
-    for each in parameters():
-        known, said = PHYSIOLOGY[each.name], each.metadata
-        line = f"{each.name} = {float(getattr(held, each.name))!r}"
-        lines.append(
-            f"{line:<40} # {said['unit']}; {known.low:g} to {known.high:g}; {said['what']}"
-        )
+    for parameter in parameters():
+        name, physiology, said = parameter.name, PHYSIOLOGY[parameter.name], parameter.metadata
+        line = f"{name} = {float(getattr(specimen, name))!r}"
+        usual = f"{physiology.low:g} to {physiology.high:g}"
+        lines.append(f"{line:<40} # {said['unit']}; {usual}; {said['what']}")
     return "\n".join(lines) + "\n"
 
 

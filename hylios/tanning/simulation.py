@@ -24,7 +24,7 @@ from hylios.tanning.recurrence import (
 
 LONGEST_STEP = 24
 FINEST_STEP = 1.0 / 60.0
-"""Of the steps in hours."""
+"""Longest and shortest time step, in hours."""
 
 CELLS_TOGETHER = 2**18
 """Hours times histories that are computed at once, for memory and for the processor's cache."""
@@ -151,37 +151,50 @@ def states_at(
     InputError
         If a minimal dose is not positive, or a time or the step is out of range.
     """
-    thickness = thickness or ThicknessDynamics()
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
     step = require_whole("step in hours", step, 1, LONGEST_STEP)
-    asked = _checked_times(times)
-    marks = int(np.ceil(asked.max(initial=0.0) / step))
-    before = np.minimum((asked / step).astype(int), max(marks - 1, 0))
+    hours = _checked_times(times)
+    thickness = thickness or ThicknessDynamics()
+    departures = _departures(exposures, melanin, thickness, hours, mmd, med, step)
+    # What is left of a layer's melanin may round to less than none.
+    without_sun = np.append(melanin.steady_state(), thickness.steady_state())
+    states = np.maximum(departures + without_sun, 0.0, out=departures)
+    states /= np.append(np.full(3, without_sun[:3].sum()), without_sun[3])
+    return states.reshape(*exposures.doses.shape[:-1], hours.size, 4)
+
+
+def _departures(
+    exposures: Exposures,
+    melanin: MelaninDynamics,
+    thickness: ThicknessDynamics,
+    times: np.ndarray,
+    mmd: float,
+    med: float,
+    step: int,
+) -> np.ndarray:
+    """Melanin of the layers and thickness beyond those without sun (H, T, 4), in 5.12's units."""
+    marks = int(np.ceil(times.max(initial=0.0) / step))
+    before = np.minimum((times / step).astype(int), max(marks - 1, 0))
     after = np.minimum(before + 1, marks)
-    fraction = (asked / step - before)[:, None]
+    fraction = (times / step - before)[:, None]
     ends = where(before), where(after)
 
-    shape = exposures.doses.shape[:-1]
-    states = np.empty((int(np.prod(shape)), asked.size, 4))
+    result = np.empty((int(np.prod(exposures.doses.shape[:-1])), times.size, 4))
     hours = 1 + marks * step
     together = max(CELLS_TOGETHER // hours, 1)
-    for first in range(0, len(states), together):
+    for first in range(0, len(result), together):
         some = slice(first, first + together)
         received = _by_hour(exposures.hours, exposures.doses, some, hours)
         thickening = _by_hour(exposures.hours, exposures.thickening_doses, some, hours)
-        departures = (
+        curves = (
             *_melanin(_response(received / mmd, melanin, step), melanin, step),
             _growth(_response(thickening / med, thickness, step), thickness, step),
         )
-        for part, curve in enumerate(departures):
+        for part, curve in enumerate(curves):
             there = curve[ends[0]] * (1.0 - fraction) + curve[ends[1]] * fraction
-            states[some, :, part] = there.T
-    # What is left of a layer's melanin may round to less than none.
-    without_sun = np.append(melanin.steady_state(), thickness.steady_state())
-    states = np.maximum(states + without_sun, 0.0, out=states)
-    states /= np.append(np.full(3, without_sun[:3].sum()), without_sun[3])
-    return states.reshape(*shape, asked.size, 4)
+            result[some, :, part] = there.T
+    return result
 
 
 def hill(signal: np.ndarray, constant: float, exponent: float) -> np.ndarray:
@@ -203,13 +216,12 @@ def _check_step(step: float) -> None:
 
 
 def _checked_times(times: ArrayLike) -> np.ndarray:
-    asked = as_numbers("times to be asked for", times)
-    if asked.ndim != 1 or not np.all((asked >= 0.0) & (asked <= LONGEST_HOURS)):
+    hours = as_numbers("times", times)
+    if hours.ndim != 1 or not np.all((hours >= 0.0) & (hours <= LONGEST_HOURS)):
         raise InputError(
-            f"times to be asked for are {str(times)[:60]}; allowed is a list of 0 to "
-            f"{LONGEST_HOURS} hours."
+            f"times are {str(times)[:60]}; allowed is a list of 0 to {LONGEST_HOURS} hours."
         )
-    return asked
+    return hours
 
 
 def _by_hour(when: np.ndarray, doses, some: slice, hours: int) -> np.ndarray:

@@ -274,7 +274,7 @@ def test_a_bad_step_is_named(step):
 
 @pytest.mark.parametrize("times", [[-1.0], [np.nan], [1e9], 5.0, [[1.0]], "noon", [[1.0], 2.0]])
 def test_bad_times_are_named(times):
-    with pytest.raises(InputError, match="times to be asked for are .* (allowed is|expected an)"):
+    with pytest.raises(InputError, match="times are .* (allowed is|expected an)"):
         states_at(Exposures(), PIGMENTATIONS["low"], times=times, mmd=1.0, med=1.0)
 
 

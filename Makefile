@@ -49,6 +49,13 @@ agreement: environment
 package: environment
 	@$(BIN)/python -m blender_addon.package
 
+# What a release attaches, into dist: the extension's zip, the wheel and its sources.
+.PHONY: release
+release: package
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check \
+	    --constraint $(VENV)/constraints.txt --editable ".[release]"
+	@SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) $(BIN)/python -m build --outdir dist >/dev/null
+
 # The tables that the add-on carries; each takes seconds, of dark skin a minute.
 TABLES := I II III IV V VI S1 S2 S3 S4
 .PHONY: tables

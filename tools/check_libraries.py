@@ -1,4 +1,7 @@
-"""Says which Debian packages to install where system libraries that bpy loads are missing."""
+"""Says which Debian packages to install where system libraries that bpy loads are missing.
+
+With --packages it prints the packages of all libraries that bpy loads.
+"""
 
 import importlib.util
 import subprocess
@@ -38,6 +41,9 @@ def sentence(missing: list[str]) -> str:
 
 def main() -> int:
     """Check the installed bpy; status 2 and a sentence where libraries are missing."""
+    if sys.argv[1:] == ["--packages"]:
+        print(*DEBIAN_PACKAGES.values())
+        return 0
     module = importlib.util.find_spec("bpy")
     if module is None or module.origin is None:
         print("The Python package bpy is not installed.", file=sys.stderr)

@@ -85,3 +85,11 @@ def test_pins_leave_out_our_own_package():
         ]
     }
     assert tool("constraints").pins(report) == "Jinja2==3.1.6\nnumpy==2.5.5\n"
+
+
+def test_all_files_state_one_version(capsys):
+    module = tool("check_version")
+    (version,) = set(module.versions().values())
+    assert module.main(f"v{version}") == 0
+    assert module.main("v9.9.9") == 2
+    assert "blender_addon/blender_manifest.toml has version " in capsys.readouterr().err

@@ -29,11 +29,11 @@ def missing_libraries(linked: str) -> list[str]:
 
 def sentence(missing: list[str]) -> str:
     """What to install for the missing libraries."""
-    known = sorted({DEBIAN_PACKAGES[name] for name in missing if name in DEBIAN_PACKAGES})
+    packages = sorted({DEBIAN_PACKAGES[name] for name in missing if name in DEBIAN_PACKAGES})
     unknown = [name for name in missing if name not in DEBIAN_PACKAGES]
     said = f"Blender needs the system libraries {', '.join(missing)}"
-    if known:
-        said += f": install them with apt-get install {' '.join(known)}"
+    if packages:
+        said += f": install them with apt-get install {' '.join(packages)}"
     if unknown:
         said += f" (the packages that hold {', '.join(unknown)} are not known here)"
     return f"{said}."

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from blender_addon.package import NOT_CARRIED
+from blender_addon.package import NOT_CARRIED, tracked
 
 ROOT = Path(__file__).parent.parent.parent
 STANDARD = set(sys.stdlib_module_names)
@@ -29,17 +29,17 @@ ALLOWED = {
 
 
 def imported(path):
-    """Names of modules that a file imports, anywhere in it, with the level of relative ones."""
+    """Dotted names of what a file imports from other packages or by full name, anywhere in it."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            yield from ((alias.name, 0) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            yield node.module or "", node.level
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
 
 
 def room(path):
     name = path.relative_to(ROOT).as_posix()
-    return max((each for each in ALLOWED if name.startswith(each)), key=len)
+    return max((place for place in ALLOWED if name.startswith(place)), key=len)
 
 
 SOURCES = [
@@ -52,9 +52,8 @@ SOURCES = [
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_imports_follow_the_arrows(path):
     allowed = ALLOWED[room(path)] | STANDARD | {path.relative_to(ROOT).parts[0]}
-    for name, level in imported(path):
-        if level == 0:
-            assert name.split(".")[0] in allowed, f"{path.name} imports {name}"
+    for name in imported(path):
+        assert name.split(".")[0] in allowed, f"{path.name} imports {name}"
 
 
 def is_carried(path):
@@ -69,7 +68,7 @@ def is_carried(path):
 )
 def test_what_a_scene_needs_leads_to_no_laboratory(path):
     """No numba, no colour-science: what the add-on's wheel holds imports nothing else of hylios."""
-    for name, _ in imported(path):
+    for name in imported(path):
         if name.startswith("hylios."):
             assert name.split(".")[1] not in NOT_CARRIED, f"{path.name} imports {name}"
 
@@ -88,19 +87,23 @@ APART = {
     ids=lambda path: str(path.relative_to(ROOT)),
 )
 def test_the_two_ways_to_a_reflectance_stay_apart(path):
-    for name, _ in imported(path):
+    for name in imported(path):
         if name.startswith("hylios."):
             forbidden = APART[path.relative_to(ROOT).parts[1]]
             assert name.split(".")[1] not in forbidden, f"{path.name} imports {name}"
 
 
+def test_the_tests_mirror_the_tree():
+    """A folder of tests is named after the folder that it tests."""
+    own = {"docs", "examples", "project"}
+    folders = {path.parent.relative_to(ROOT / "tests") for path in ROOT.glob("tests/*/**/*.py")}
+    for folder in folders:
+        assert folder.parts[0] in own or (ROOT / folder).is_dir(), f"tests/{folder} tests nothing"
+
+
 def test_no_file_needs_the_workplace():
     """No registry, no path of one machine."""
     forbidden = ("/work/" + "shared", "/work/" + "main", "index" + "-url", "/root" + "/")
-    for path in ROOT.rglob("*"):
-        made = path.relative_to(ROOT).parts[0] in {"out", "dist"}
-        hidden = any(part.startswith(".") for part in path.relative_to(ROOT).parts)
-        kept = not made and not hidden
-        if kept and path.suffix in {".py", ".toml", ".md", ".sh", ".csv", ""} and path.is_file():
-            text = path.read_text(encoding="utf-8", errors="ignore")
-            assert not any(word in text for word in forbidden), path
+    for name in tracked(ROOT, "."):
+        text = (ROOT / name).read_bytes().decode("utf-8", errors="ignore")
+        assert not any(word in text for word in forbidden), name

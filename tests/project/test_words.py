@@ -23,7 +23,9 @@ WELL_NAMED = (
     "hylios/sun",
     "hylios/tanning",
     "hylios/tissue",
-    "tests/project/test_words.py",
+    "blender_addon/package.py",
+    "tests/project",
+    "tools",
 )
 """Folders, or patterns of files, without names that are empty words."""
 
@@ -33,7 +35,8 @@ SHORT = (
     "hylios/sun",
     "hylios/tanning",
     "hylios/tissue",
-    "tests/project/test_words.py",
+    "tests/project",
+    "tools",
 )
 """Folders, or patterns of files, without long files and long functions."""
 

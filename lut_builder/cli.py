@@ -32,15 +32,13 @@ from hylios.table import INTERPOLATIONS, read_table
 from hylios.table.kinds import printable
 from hylios.tissue import Model
 from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
-from lut_builder.trade.pareto import (
+from lut_builder.trade.pareto import best, cheapest, worst
+from lut_builder.trade.points import (
     Point,
-    best,
-    cheapest,
     described,
     read_points,
     shipped_points,
     usable_cores,
-    worst,
     write_points,
     write_rows,
 )
@@ -261,7 +259,7 @@ def _build(asked: argparse.Namespace) -> None:
 
     from lut_builder.assemble import assembled, requested, units
     from lut_builder.commands.resumable import resumable
-    from lut_builder.exr import write_table
+    from lut_builder.exr_writer import write_table
     from lut_builder.jobs.run import run_units
     from lut_builder.jobs.software import software_digest
     from lut_builder.schedule import reached_states, read_schedule
@@ -318,8 +316,9 @@ def _trade(asked: argparse.Namespace) -> None:
         require_target(path, (kind,), asked.force)
     skins = [chosen_tanning_skin(asked), *(phototype(each).skin for each in asked.also)]
 
+    from lut_builder.trade.extent import FULL, QUICK
     from lut_builder.trade.figure import draw
-    from lut_builder.trade.trade import FULL, QUICK, Trade, measure, notes
+    from lut_builder.trade.measurement import Trade, measure, notes
 
     extent = QUICK if asked.quick else FULL
     measured = []

@@ -31,7 +31,7 @@ from hylios.table import SkinTable
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.assemble import build
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 from lut_builder.settings import Settings
 
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")

@@ -1,4 +1,4 @@
-"""The picture of what `lut_builder.trade.trade` measured."""
+"""The picture of what `lut_builder.trade.measurement` measured."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,15 +7,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hylios.lab.pictures import write_figure
-from lut_builder.trade.pareto import CORES, Point, named
-from lut_builder.trade.trade import Row, Trade
+from lut_builder.trade.measurement import Trade
+from lut_builder.trade.parts import Row
+from lut_builder.trade.points import CORES, Point, named
 
 SIZE_INCHES, DOTS_PER_INCH = (15.0, 9.0), 110
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
 
 
 def draw(trade: Trade, path: Path, title: str = "") -> None:
-    """Draw the front, and each thing that can be traded, as PNG or SVG.
+    """Draw the front, and all that can be traded, as PNG or SVG.
 
     Raises
     ------
@@ -40,8 +41,8 @@ def draw(trade: Trade, path: Path, title: str = "") -> None:
 
 def _draw_front(place: Axes, trade: Trade) -> None:
     place.scatter(
-        [each.seconds() for each in trade.points],
-        [each.error for each in trade.points],
+        [point.seconds() for point in trade.points],
+        [point.error for point in trade.points],
         s=2,
         color="0.8",
         label="all tables",
@@ -50,18 +51,18 @@ def _draw_front(place: Axes, trade: Trade) -> None:
         ("#d55e00", "with profile", True),
         ("#0072b2", "without", False),
     ):
-        some = [each for each in trade.front if each.settings.has_profile is has_profile]
+        some = [point for point in trade.front if point.settings.has_profile is has_profile]
         place.plot(
-            [each.seconds() for each in some],
-            [each.error for each in some],
+            [point.seconds() for point in some],
+            [point.error for point in some],
             "o-",
             ms=3,
             lw=1.2,
             color=colour,
             label=f"front, {what}",
         )
-        for each in filter(named, some):
-            _mark(place, each)
+        for point in filter(named, some):
+            _mark(place, point)
     place.set(
         xscale="log",
         yscale="log",
@@ -119,7 +120,7 @@ def _draw_solvers(place: Axes, parts: list[Row]) -> None:
         ("#d55e00", "rays, spectrum", "random walk, by rays"),
     ):
         rows = [row for row in parts if row["traded"] == name]
-        milliseconds = [1e3 * each for each in _numbers(rows, "seconds")]
+        milliseconds = [1e3 * seconds for seconds in _numbers(rows, "seconds")]
         place.plot(milliseconds, _numbers(rows, "mean"), "o-", color=colour, label=label)
         for row, at in zip(rows, milliseconds, strict=True):
             place.annotate(
@@ -163,7 +164,7 @@ def _draw_profiles(place: Axes, parts: list[Row]) -> None:
         yscale="log",
         xlabel="seconds of one core for the profile",
         ylabel="rms error of the share of light within a distance",
-        title="Profiles by knots and error asked for (dotted: 4 wavelengths;\nwithout mark: "
+        title="Profiles by knots and error aimed at (dotted: 4 wavelengths;\nwithout mark: "
         "extrapolated)",
     )
 

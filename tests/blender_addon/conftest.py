@@ -4,7 +4,7 @@ import pytest
 from synthetic import smooth_table
 
 import blender_addon
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 
 
 @pytest.fixture(autouse=True)

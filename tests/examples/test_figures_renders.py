@@ -17,7 +17,7 @@ from examples.figures.renders import Panel, Result
 from hylios.lab.colour import lab
 from hylios.skin.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 from lut_builder.settings import Settings
 
 STAND_IN = ("--stand-in", "--scale", "0.12", "--samples", "32")

@@ -31,7 +31,7 @@ from lut_builder.assemble import build
 from lut_builder.axes import choose_axes, reachable_states, untanned_state
 from lut_builder.check import check
 from lut_builder.cli import _parser, main
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 from lut_builder.settings import PRESETS, Settings
 
 TINY = Settings(knots=(3, 2), colour_wavelengths=4, profile_error=0.05, profile_wavelengths=4)
@@ -371,7 +371,7 @@ def test_a_full_disk_leaves_the_former_table(tiny, tmp_path):
         "import resource, signal, sys; from pathlib import Path\n"
         "from hylios.errors import InputError\n"
         "from hylios.table import read_table\n"
-        "from lut_builder.exr import write_table\n"
+        "from lut_builder.exr_writer import write_table\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         f"path = Path({str(path)!r}); table = read_table(path)\n"
         f"resource.setrlimit(resource.RLIMIT_FSIZE, ({len(before) - 100},) * 2)\n"

@@ -14,7 +14,7 @@ from mutations import HEADER, mutated
 
 from hylios.errors import InputError
 from hylios.table import MEANINGS, SkinTable, StateAxes, exr_reader, read_table
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "table_format.md"
 SHIPPED = sorted((Path(__file__).parents[2] / "blender_addon" / "tables").glob("*.exr"))

@@ -8,7 +8,7 @@ from scenes import tan_object
 
 from blender_addon.model import catalogue, doses
 from blender_addon.ui import exposures, panel
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 
 ICONS = {
     item.identifier

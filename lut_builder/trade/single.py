@@ -1,4 +1,4 @@
-"""Single measurements of time and error, of which `lut_builder.trade.trade` puts points together.
+"""Single measurements of time and error; `measurement` puts points together from them.
 
 Seconds are those of the processor, of one core.
 """
@@ -27,7 +27,7 @@ from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.assemble import assembled, channel_widths, requested
 from lut_builder.axes import choose_axes, reachable_states
-from lut_builder.exr import write_table
+from lut_builder.exr_writer import write_table
 from lut_builder.request import ANGLE, STATES_TOGETHER, computed, pieces
 from lut_builder.settings import Settings
 
@@ -40,14 +40,14 @@ REGIONS_NM = (700.0, 1400.0)
 
 @dataclass(frozen=True)
 class Cost:
-    """Seconds of the solver: of each reflectance, and besides of a wavelength's first."""
+    """Seconds of the solver: of a reflectance, and how much more of the first at a wavelength."""
 
-    each: float
+    later: float
     first: float
 
     def seconds(self, states: int, wavelengths: int) -> float:
         """Of a table's colours and bands."""
-        return wavelengths * (self.first + states * self.each)
+        return wavelengths * (self.first + states * self.later)
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Run:
     Attributes
     ----------
     error : float
-        That was asked for.
+        That was aimed at.
     shared, serial : float
         Seconds that cores share, and that one spends on fitting widths.
     widths : (N, 3) array
@@ -106,11 +106,11 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 def reflectances(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int) -> np.ndarray:
     """Total reflectance (N, W) of states by the solver, as pieces of a table compute it."""
-    found = []
+    parts = []
     for first in range(0, len(states), STATES_TOGETHER):
-        some = [skin.at(each) for each in states[first:][:STATES_TOGETHER]]
-        found.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
-    return np.concatenate(found)
+        some = [skin.at(state) for state in states[first:][:STATES_TOGETHER]]
+        parts.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
+    return np.concatenate(parts)
 
 
 def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:
@@ -119,27 +119,29 @@ def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:
     Of some runs the fastest counts: other work can only slow one down.
     """
     states = reachable_states(skin, 1, 1)[:: 240 // STATES_TOGETHER][:STATES_TOGETHER]
-    firsts, each = [], []
+    firsts, later = [], []
     for repeat in range(repeats):
         unseen = UNSEEN + 0.1 * repeat
         first, _ = timed(lambda at=unseen: reflectances(skin, states[:1], at, nodes))
         rest, _ = timed(lambda at=unseen: reflectances(skin, states, at, nodes))
         firsts.append(first / UNSEEN.size)
-        each.append(rest / UNSEEN.size / len(states))
-    return Cost(min(each), max(min(firsts) - min(each), 0.0))
+        later.append(rest / UNSEEN.size / len(states))
+    return Cost(min(later), max(min(firsts) - min(later), 0.0))
 
 
 def start_seconds(has_profile: bool, repeats: int) -> float:
     """Seconds of a table of one state in a process of its own; of some the fastest."""
     with tempfile.TemporaryDirectory() as folder:
-        asked = ["build", "--preset", "preview", "--knots", "1", "--wavelengths", "4"]
-        asked += ["--bands", "visible", "--force", "-o", str(Path(folder) / "start.exr")]
-        asked += [] if has_profile else ["--no-profile"]
+        arguments = ["build", "--preset", "preview", "--knots", "1", "--wavelengths", "4"]
+        arguments += ["--bands", "visible", "--force", "-o", str(Path(folder) / "start.exr")]
+        arguments += [] if has_profile else ["--no-profile"]
         seconds = []
         for _ in range(repeats):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             subprocess.run(
-                [sys.executable, "-m", "lut_builder.cli", *asked], check=True, capture_output=True
+                [sys.executable, "-m", "lut_builder.cli", *arguments],
+                check=True,
+                capture_output=True,
             )
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
@@ -156,8 +158,8 @@ def walk(
         return walked(specimen, wavelengths, angle=ANGLE, rays=rays, seed=seed, threads=1).total
 
     light(states[0])  # compiles or loads the kernels
-    seconds, found = timed(lambda: np.array([light(each) for each in states]))
-    return seconds / found.size, found
+    seconds, reflectance = timed(lambda: np.array([light(state) for state in states]))
+    return seconds / reflectance.size, reflectance
 
 
 def fine_profiles(
@@ -165,12 +167,14 @@ def fine_profiles(
 ) -> FineProfiles:
     """Profiles of states from so many wavelengths, with a standard error."""
     few = skin_quadrature(wavelengths)
-    specimens = [skin.at(each) for each in states]
+    specimens = [skin.at(state) for state in states]
     # Another seed than the tables': errors are to be independent.
-    found = skin_profiles(
+    profiles = skin_profiles(
         specimens, few.wavelengths, error=error, angle=ANGLE, seed=seed + 1, threads=1
     )
-    channels = np.einsum("cw,wsb->scb", few.weights, np.array([each.light for each in found]))
+    channels = np.einsum(
+        "cw,wsb->scb", few.weights, np.array([profile.light for profile in profiles])
+    )
     light = np.maximum(channels.sum(axis=2), LEAST)
     widths = channel_widths(channels)
     within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
@@ -221,9 +225,11 @@ def profile_runs(
             break
         request = requested(skin, replace(settings, profile_error=error), seed=seed)
         shared, results = 0.0, {}
-        for each in pieces(request):
-            seconds, results[each.name] = timed(lambda of=request, piece=each: computed(of, piece))
-            shared += seconds if each.kind == "profile" else 0.0
+        for piece in pieces(request):
+            seconds, results[piece.name] = timed(
+                lambda of=request, piece=piece: computed(of, piece)
+            )
+            shared += seconds if piece.kind == "profile" else 0.0
         serial, table = timed(lambda of=request, by=results: assembled(of, by))
         runs.append(Run(error, shared, serial, table.plane("profile_width", states)))
     return runs
@@ -245,10 +251,10 @@ def half_against_full(
 ) -> tuple[np.ndarray, dict[str, int]]:
     """CIEDE2000 (N,) that numbers of 16 bits make, and bytes of the file by kind of number."""
     request = requested(skin, settings, seed=seed)
-    table = assembled(request, {each.name: computed(request, each) for each in pieces(request)})
+    table = assembled(request, {piece.name: computed(request, piece) for piece in pieces(request)})
     rounded = {
-        name: each.astype(np.float16).astype(float)
-        for name, each in table.planes.items()
+        name: values.astype(np.float16).astype(float)
+        for name, values in table.planes.items()
         if name == "total_colour"
     }
     apart = difference(
@@ -267,7 +273,7 @@ def half_against_full(
 def regions(wavelengths: np.ndarray) -> list[np.ndarray]:
     """Which wavelengths belong to each of the piecewise analysis's regions, bool."""
     number = np.searchsorted(REGIONS_NM, wavelengths)
-    return [number == each for each in range(len(REGIONS_NM) + 1)]
+    return [number == region for region in range(len(REGIONS_NM) + 1)]
 
 
 def component_errors(

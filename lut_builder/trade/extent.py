@@ -1,0 +1,105 @@
+"""What a measurement of time against error tries, and how finely."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hylios.adding.solver import NODES
+from hylios.quadrature import skin_quadrature
+from lut_builder.check import FINE
+from lut_builder.settings import BANDS_NM
+
+BROAD = np.arange(250.0, 2501.0, 25.0)
+"""Wavelengths in nm of the spectra that principal components are to keep."""
+
+COMPONENTS = (1, 2, 3, 4, 8)
+
+BASE_WAVELENGTHS, BASE_INTERPOLATION = 8, "pchip"
+"""Of the colours where something else is varied."""
+
+SECONDS_EACH = 1.5e-3
+"""Of one reflectance with the usual number of directions, for the time left alone."""
+
+
+@dataclass(frozen=True)
+class Extent:
+    """What is tried, and how finely the truth is known.
+
+    Attributes
+    ----------
+    states, profile_states, broad_states, walked_states : int
+        Numbers of reachable states between the knots: for colours, profiles, principal
+        components and random walks.
+    knots, wavelengths, nodes, profile_errors, profile_wavelengths : tuples
+        Values of `Settings`; profile errors descend.
+    rays : tuple of int
+        Of random walks, for each wavelength.
+    fine_nodes, fine_profile_wavelengths : int
+    fine_profile_error : float
+        Of what errors are measured against.
+    longest : float
+        Seconds of a profile, about, beyond which it is not walked.
+    file_knots : tuple of int
+        Of a table that is written with numbers of 32 and of 16 bits.
+    repeats : int
+        Of what is short.
+    """
+
+    states: int = 200
+    profile_states: int = 24
+    broad_states: int = 60
+    walked_states: int = 3
+    knots: tuple[tuple[int, ...], ...] = (
+        (5,),
+        (9,),
+        (7, 2),
+        (9, 3),
+        (7, 3, 2),
+        (11, 3, 2),
+        (9, 3, 3, 2),
+        (11, 3, 3, 2),
+        (13, 4, 4, 2),
+    )
+    wavelengths: tuple[int, ...] = (4, 6, 8, 12, 16)
+    nodes: tuple[int, ...] = (10, 14, 18, NODES, 30)
+    profile_errors: tuple[float, ...] = (0.05, 0.02, 0.01, 0.006, 0.004, 0.003, 0.002)
+    profile_wavelengths: tuple[int, ...] = (4, 8)
+    rays: tuple[int, ...] = (1_000, 10_000, 100_000)
+    fine_nodes: int = 36
+    fine_profile_wavelengths: int = 12
+    fine_profile_error: float = 0.002
+    longest: float = 12.0
+    file_knots: tuple[int, ...] = (11, 3, 3, 2)
+    repeats: int = 3
+
+
+FULL = Extent()
+QUICK = Extent(
+    states=12,
+    profile_states=4,
+    broad_states=12,
+    walked_states=1,
+    knots=((3,), (5, 2)),
+    wavelengths=(4, 8),
+    nodes=(14, NODES),
+    profile_errors=(0.1, 0.05),
+    profile_wavelengths=(4,),
+    rays=(1_000,),
+    fine_nodes=30,
+    fine_profile_wavelengths=6,
+    fine_profile_error=0.02,
+    longest=10.0,
+    file_knots=(5, 2),
+    repeats=1,
+)
+"""To see that it works; what it says of a table is worth little."""
+
+
+def table_wavelengths(extent: Extent) -> np.ndarray:
+    """All wavelengths in nm that a table's colours or bands may use."""
+    used = [skin_quadrature(count).wavelengths for count in (*extent.wavelengths, BASE_WAVELENGTHS)]
+    return np.unique(np.concatenate([*used, BANDS_NM]))
+
+
+def fine_wavelengths() -> np.ndarray:
+    return np.union1d(FINE, BANDS_NM)

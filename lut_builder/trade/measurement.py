@@ -1,0 +1,171 @@
+"""Time against error of tables, over all that can be traded.
+
+Colour and profile are separate work with separate errors, so each is measured by itself, over the
+settings that matter to it, and a table's point is put together from the two. Errors are against a
+fine solution at reachable states that are no knots.
+
+What is not measured for each combination: another number of the solver's directions moves a
+reflectance by what hardly depends on the state, so that shift is measured at the states looked up
+and added there (on the coarsest tables that misses the largest error by 2 %); a profile that would
+take too long follows from the same table's less accurate ones (`errors.completed`).
+"""
+
+import platform
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hylios.skin import Skin
+from lut_builder.settings import BANDS_NM, Settings
+from lut_builder.trade.errors import (
+    ColourError,
+    ProfileError,
+    colour_errors,
+    completed,
+    noise_share,
+)
+from lut_builder.trade.extent import FULL, Extent
+from lut_builder.trade.pareto import front
+from lut_builder.trade.parts import (
+    Row,
+    colour_parts,
+    component_parts,
+    file_parts,
+    profile_parts,
+    solver_parts,
+)
+from lut_builder.trade.points import Point
+from lut_builder.trade.single import Cost, FineProfiles, between_knots
+from lut_builder.trade.steps import planned
+
+
+@dataclass(frozen=True)
+class Trade:
+    """What was measured.
+
+    Attributes
+    ----------
+    points : list of Point
+        All tables.
+    parts : list of Row
+        What each thing that can be traded does by itself.
+    """
+
+    points: list[Point]
+    parts: list[Row]
+
+    @property
+    def front(self) -> list[Point]:
+        """The tables that no other beats in time and error."""
+        return front(self.points)
+
+
+def measure(
+    skin: Skin,
+    extent: Extent = FULL,
+    *,
+    seed: int = 1,
+    begin: Callable[[float], Callable[[float], object]] | None = None,
+) -> Trade:
+    """Measure all that `extent` names, for a skin, on one core.
+
+    Parameters
+    ----------
+    begin : callable, optional
+        Told the seconds of all; what it returns is told those of each step as it ends.
+    """
+    states = between_knots(skin, extent.states, seed)
+    steps = planned(skin, extent, states, seed)
+    progress = begin(sum(size for size, _ in steps.values())) if begin else None
+    measured: dict[Any, Any] = {}
+    for name, (size, work) in steps.items():
+        measured[name] = work()
+        if progress:
+            progress(size)
+    colour = colour_errors(skin, extent, states, measured)
+    fine: FineProfiles = measured["profile fine"]
+    profile = {}
+    for count in extent.profile_wavelengths:
+        runs = {knots: measured["profile", knots, count] for knots in extent.knots}
+        noise = noise_share(list(runs.values()), fine.widths)
+        for knots, walked in runs.items():
+            profile[knots, count] = completed(walked, fine, extent.profile_errors, noise)
+    return Trade(
+        points=_points(extent, measured, colour, profile),
+        parts=[
+            *colour_parts(extent, measured, colour),
+            *solver_parts(extent, measured),
+            *profile_parts(profile, fine.misfits),
+            *file_parts(*measured["half"]),
+            *component_parts(measured["broad"]),
+        ],
+    )
+
+
+def notes(skins: Sequence[Skin], extent: Extent) -> list[str]:
+    """Of which machine, day and skins a measurement is."""
+    names = "; ".join(f"{skin.specimen.name}, pigmentation {skin.pigmentation}" for skin in skins)
+    several = ": of each table the slowest and least accurate" if len(skins) > 1 else ""
+    return [
+        f"lut-builder trade, {date.today().isoformat()}: seconds are of this machine's processor",
+        f"machine: {_processor()}, Python {platform.python_version()}, numpy {np.__version__}",
+        f"skin: {names}{several}",
+        f"errors: at {extent.states} reachable states that are no knots, "
+        f"{extent.profile_states} of them for profiles; tables have {len(BANDS_NM)} single bands",
+    ]
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    named = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return named[0] if named else platform.processor() or platform.machine()
+
+
+def _points(
+    extent: Extent,
+    measured: dict[Any, Any],
+    colour: dict[Any, ColourError],
+    profile: dict[Any, list[ProfileError]],
+) -> list[Point]:
+    """All tables, with each profile and without."""
+    points = []
+    for (knots, kind, count, nodes), seen in colour.items():
+        cost: Cost = measured["cost", nodes]
+        solved = cost.seconds(int(np.prod(knots)), count + len(BANDS_NM))
+
+        def point(profiled: ProfileError | None, few: int = 8, **made) -> Point:
+            start = measured["start" if profiled else "start without profile"]
+            return Point(
+                Settings(
+                    profile_error=profiled.error if profiled else 0.0,
+                    profile_wavelengths=few,
+                    **made,
+                ),
+                shared_seconds=solved + (profiled.shared if profiled else 0.0),  # noqa: B023
+                serial_seconds=profiled.serial if profiled else 0.0,
+                start_seconds=start,
+                delta_e_mean=seen.mean,  # noqa: B023
+                delta_e_largest=seen.largest,  # noqa: B023
+                band_rmse=seen.bands,  # noqa: B023
+                profile_rms=profiled.rms if profiled else 0.0,
+                profile_largest=profiled.largest if profiled else 0.0,
+                profile_lightness=profiled.lightness if profiled else 0.0,
+            )
+
+        made = {
+            "knots": knots,
+            "interpolation": kind,
+            "colour_wavelengths": count,
+            "nodes": nodes,
+        }
+        points.append(point(None, **made))
+        for few in extent.profile_wavelengths:
+            points += [point(error, few, **made) for error in profile[knots, few]]
+    return points

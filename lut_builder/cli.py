@@ -257,12 +257,13 @@ def _build(asked: argparse.Namespace) -> None:
     _, model = chosen_skin(asked)
     skin = chosen_tanning_skin(asked, asked.untanned)
 
+    from hylios.history import read_schedule
     from lut_builder.assemble import assembled, requested, units
     from lut_builder.commands.resumable import resumable
     from lut_builder.exr_writer import write_table
     from lut_builder.jobs.run import run_units
     from lut_builder.jobs.software import software_digest
-    from lut_builder.schedule import reached_states, read_schedule
+    from lut_builder.schedule import reached_states
 
     reached = None
     if asked.schedule is not None:

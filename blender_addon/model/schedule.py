@@ -1,19 +1,9 @@
 """An object's doses as CSV, for a table that holds only what they lead to."""
 
-import numpy as np
+from hylios.history import schedule_text
 
 from . import catalogue, doses
 from .settings import TanSettings
-
-HEAD = """\
-# sun of {name}, for a table of what it leads to alone; with the same skin:
-# lut-builder build --schedule FILE --days {days:g} --mmd {mmd!r} --med {med!r} -o TABLE.exr
-# skin: {skin}
-# MMD in SED: {mmd!r}
-# MED in SED: {med!r}
-# days: {days:g}
-hour,melanogenesis_sed,thickening_sed
-"""
 
 
 def csv_text(name: str, settings: TanSettings) -> str:
@@ -32,22 +22,11 @@ def csv_text(name: str, settings: TanSettings) -> str:
     provenance = catalogue.provenance(settings.table)
     minimal = settings.minimal_doses(provenance)
     received = doses.received(settings.exposures, minimal.mmd, provenance)
-    received.exposures()  # refuses what the tanning model would
-    head = HEAD.format(
-        name=_line(name),
-        skin=_line(provenance.get("specimen", "of the table")),
+    return schedule_text(
+        received.exposures(),
+        scene=name,
+        skin=str(provenance.get("specimen", "of the table")),
         days=settings.last_day,
         mmd=minimal.mmd,
         med=minimal.med,
     )
-    return head + "".join(map(_row, received.hours, received.melanogenesis, received.thickening))
-
-
-def _row(hour: np.floating, melanogenesis: np.floating, thickening: np.floating) -> str:
-    return f"{int(hour)},{float(melanogenesis)!r},{float(thickening)!r}\n"
-
-
-def _line(text: object) -> str:
-    """A text as one line of what a file can hold."""
-    printable = (character if character.isprintable() else " " for character in str(text))
-    return " ".join("".join(printable).split())

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from hylios.errors import InputError, require_range
+from hylios.history import LAST_DAY_LIMIT
 
-LAST_DAY_LIMIT = 366.0
 LARGEST_MINIMAL_DOSE = 1000.0
 """In SED; a hundred times that of the darkest skin."""
 

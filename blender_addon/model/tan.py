@@ -5,16 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.history import history_of_shares
 from hylios.sun.doses import Doses
 from hylios.table import SkinTable, melanin_dynamics
-from hylios.tanning import Exposures, states_at
 
 from . import catalogue, doses
 from .settings import TanSettings, check_days
 
-# The response jumps where the dose passes the MMD and then climbs in steps; with this many knots
-# a jump is spread over 0.2 % of the share, and 99 % of all places are within 0.6 % of the melanin.
-COLUMNS = 512
 HOURS_PER_ROW = 6.0
 ROWS_LIMIT = 1024
 
@@ -92,15 +89,13 @@ def tan(
     _check_planes(table)
     check_days(first_day, last_day)
     rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
-    share = np.linspace(0.0, 1.0, COLUMNS)[:, None]
-    states = states_at(
-        Exposures(received.hours, share * received.melanogenesis, share * received.thickening),
+    states = history_of_shares(
+        received.exposures(),
         melanin_dynamics(table.provenance),
-        times=24.0 * np.linspace(first_day, last_day, rows),
+        hours=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
         med=med,
-    )
-    states = np.moveaxis(states, 1, 0)
+    ).image
     if not table.holds(states).all():
         raise InputError(
             "the table was built for another schedule of sun, which does not lead where this one "

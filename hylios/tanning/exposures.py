@@ -33,7 +33,7 @@ class Exposures:
 
     hours: np.ndarray = field(default_factory=lambda: np.zeros(0, int))
     doses: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    thickening_doses: np.ndarray | None = None
+    thickening_doses: np.ndarray = None  # type: ignore[assignment]  # filled in below
 
     def __post_init__(self):
         hours = as_numbers("hours of exposure", self.hours)

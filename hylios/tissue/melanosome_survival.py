@@ -58,9 +58,11 @@ def survival_in_melanosome(layer: Layer, melanin_index: float) -> float:
     require_range("minor to major axis of melanosomes", aspect, LEAST_ASPECT, 1.0)
     require_range("refractive index of melanosomes relative to the tissue", ratio, 1.0, MOST_RATIO)
     lengths, weights = _table()
-    layer = (weights * np.exp(-layer.melanin_absorption * layer.semi_minor * lengths)).sum(axis=2)
+    survivals = (weights * np.exp(-layer.melanin_absorption * layer.semi_minor * lengths)).sum(
+        axis=2
+    )
     along, across = _interpolating(aspect, ratio)
-    return float(np.clip(along @ layer @ across, 0.0, 1.0))
+    return float(np.clip(along @ survivals @ across, 0.0, 1.0))
 
 
 def is_tabulated(layer: Layer, melanin_index: float) -> bool:

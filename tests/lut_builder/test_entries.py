@@ -9,6 +9,7 @@ import pytest
 from hylios.adding.absorptance import tabulated
 from hylios.adding.spectrum import spectrum as solved
 from hylios.burley import burley_width
+from hylios.history import read_schedule
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.phototypes import phototype
@@ -20,7 +21,6 @@ from lut_builder.assemble import build
 from lut_builder.check import check
 from lut_builder.cli import main
 from lut_builder.request import ANGLE
-from lut_builder.schedule import read_schedule
 from lut_builder.settings import PRESETS, Settings
 
 SKIN = Skin.of(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
@@ -173,13 +173,19 @@ def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("", "has no column hour; it needs hour, melanogenesis_sed, thickening_sed."),
+        ("", "it is empty"),
         ("hour,melanogenesis_sed\n0,1\n", "has no column thickening_sed"),
-        ("hour,melanogenesis_sed,thickening_sed\n0,x,1\n", "melanogenesis_sed is 'x'; expected"),
-        ("hour,melanogenesis_sed,thickening_sed\n0,1\n", "thickening_sed is ''; expected a num"),
-        ("hour,melanogenesis_sed,thickening_sed\n-1,1,1\n", "an hour of exposure is -1"),
-        ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "a dose is negative, not finite"),
-        ("\x00\n", "has no column hour"),
+        (
+            "hour,melanogenesis_sed,thickening_sed\n0,x,1\n",
+            "melanogenesis_sed in line 2 is 'x'; expected",
+        ),
+        ("hour,melanogenesis_sed,thickening_sed\n0,1\n", "line 2 has 2 cells and the header has 3"),
+        (
+            "hour,melanogenesis_sed,thickening_sed\n-1,1,1\n",
+            "hour of -1 in line 2; allowed is 0 to",
+        ),
+        ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "melanogenesis_sed in line 2 is nan"),
+        ("\x00\n", "cannot be read: it is empty"),
     ],
 )
 def test_a_schedule_that_is_none_is_one_sentence(tmp_path, capsys, text, sentence):

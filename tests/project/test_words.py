@@ -24,6 +24,7 @@ WELL_NAMED = (
     "hylios/tanning",
     "hylios/tissue",
     "blender_addon/package.py",
+    "tests/hylios/test_history.py",
     "tests/project",
     "tools",
 )

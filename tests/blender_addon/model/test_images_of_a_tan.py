@@ -8,9 +8,9 @@ import pytest
 from synthetic import smooth_table
 
 from blender_addon.model import catalogue, doses, schedule
-from blender_addon.model import tan as module
 from blender_addon.model.settings import Exposure, MinimalDoses, TanSettings
 from blender_addon.model.tan import tan, tan_of
+from hylios import history
 from hylios.errors import InputError
 from hylios.skin import varied
 from hylios.sun.doses import of_sed
@@ -66,7 +66,7 @@ def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
         arguments.update(more, exposures=exposures)
         return states_at(exposures, dynamics, **more)
 
-    monkeypatch.setattr(module, "states_at", recorded)
+    monkeypatch.setattr(history, "states_at", recorded)
     values = settings(table_path, own_doses=MinimalDoses(mmd=6.0, med=4.0))
     tan_of(values)
     assert (arguments["mmd"], arguments["med"]) == (6.0, 4.0)

@@ -9,13 +9,14 @@ from scenes import of_role, tan_object
 
 from blender_addon.model.tan import tan
 from hylios.errors import InputError
+from hylios.history import read_schedule
 from hylios.skin.phototypes import phototype
 from hylios.sun.doses import of_sed
 from hylios.table import from_stored, to_stored
 from hylios.tanning import Exposures
 from lut_builder.assemble import build
 from lut_builder.exr_writer import write_table
-from lut_builder.schedule import reached_states, read_schedule
+from lut_builder.schedule import reached_states
 from lut_builder.settings import Settings
 
 SKIN = phototype("III").skin

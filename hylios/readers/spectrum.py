@@ -145,19 +145,22 @@ def read_transmittance(path: Path) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
-def read_values(path: Path, largest: float) -> tuple[np.ndarray, np.ndarray]:
-    """Wavelengths (W,) in nm and values (W,), 0 to some largest, of two columns.
+def read_values(
+    path: Path, title: str, least: float, largest: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths (W,) in nm and values (W,) of two columns.
 
-    The second column is called `value`, or there is no header.
+    The second column is called `value` or as `title` says, or there is no header.
 
     Raises
     ------
     InputError
-        If the file cannot be read, has no such columns, or a value is out of range.
+        If the file cannot be read, has no such columns, or a value is not from `least` to
+        `largest`.
     """
-    value = Quantity("value")
+    value = Quantity("value", ("value", title.casefold()))
     table = _by_wavelength(read_table(path, (WAVELENGTH, value), as_pair=(WAVELENGTH, value)))
-    return table.numbers[WAVELENGTH.name], table.require_range(value.name, 0.0, largest)
+    return table.numbers[WAVELENGTH.name], table.require_range(value.name, least, largest)
 
 
 def _by_wavelength(table: Table) -> Table:

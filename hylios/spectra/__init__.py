@@ -16,6 +16,7 @@ from types import MappingProxyType
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.readers.spectrum import read_values
 
 
 @dataclass(frozen=True)
@@ -98,24 +99,29 @@ def published_spectra() -> Spectra:
     )
 
 
+LARGEST = 1e9
+"""Of an absorber in its unit: two thousand times any that is published."""
+
+REFRACTIVE_INDICES = (1.0, 3.0)
+
+
 def with_own_spectrum(spectra: Spectra, name: str, path: Path) -> Spectra:
-    """The spectra with one of them from a CSV file: two columns, nm and value, without a header.
+    """The spectra with one of them from a file: nm and value, two columns or so called.
+
+    Parameters
+    ----------
+    path : Path
+        Of a table as `hylios.readers` reads them; its values are in the unit of the one replaced.
 
     Raises
     ------
     InputError
-        If there is no such spectrum, or the file is not two columns of ascending, usable numbers.
+        If there is no such spectrum, the file cannot be read, or a value is out of range.
     """
     if name not in spectra:
         raise InputError(f"there is no spectrum {name!r}; there are {', '.join(spectra)}.")
-    try:
-        rows = path.read_text(encoding="utf-8").splitlines()
-        wavelengths, values = np.array([row.split(",") for row in rows if row], dtype=float).T
-    except (OSError, ValueError) as error:
-        raise InputError(f"the spectrum in {path} cannot be read: {error}.") from error
-    usable = np.all(np.isfinite(values)) and np.all(values >= 0)
-    if not (usable and np.all(np.diff(wavelengths) > 0)):
-        raise InputError(f"{path} needs ascending wavelengths in nm and values of 0 or more.")
+    limits = REFRACTIVE_INDICES if name.endswith("refractive_index") else (0.0, LARGEST)
+    wavelengths, values = read_values(path, name, *limits)
     own = Spectrum(name, spectra[name].unit, str(path), (), wavelengths, values)
     return MappingProxyType({**spectra, name: own})
 

@@ -107,7 +107,7 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --seed -1", "seed is -1"),
         (
             "reflectance --own-spectrum keratin=/none.csv",
-            "the spectrum in /none.csv cannot be read",
+            "/none.csv cannot be read: No such file",
         ),
         ("tan --dose 30", "expected HOUR:SED"),
         ("tan --dose 0:-3", "a dose is negative"),

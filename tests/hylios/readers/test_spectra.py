@@ -219,8 +219,8 @@ def test_a_sunscreen_is_given_by_transmittance_or_absorbance(file):
 
 
 def test_two_columns_of_an_absorber(file):
-    for text in ("400,5\n500,7\n", "nm;value\n500;7,0\n400;5,0\n"):
-        wavelengths, values = read_values(file(text), 1e9)
+    for text in ("400,5\n500,7\n", "nm;value\n500;7,0\n400;5,0\n", "nm,Keratin\n400,5\n500,7\n"):
+        wavelengths, values = read_values(file(text), "keratin", 0.0, 1e9)
         assert (wavelengths.tolist(), values.tolist()) == ([400.0, 500.0], [5.0, 7.0])
     with pytest.raises(InputError, match=r"has a value of 1e\+308 in line 1; allowed is 0 to 1e"):
-        read_values(file("400,1e308\n"), 1e9)
+        read_values(file("400,1e308\n"), "keratin", 0.0, 1e9)

@@ -172,7 +172,15 @@ def test_a_spectrum_can_be_the_user_s_own(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text", ["300,1\n250,2\n", "250,-1\n300,2\n", "a,b\n", "", "250,nan\n260,1"]
+    "text",
+    [
+        "300,1\n250,2\n260,3\n",
+        "250,1\n300,1e308\n",
+        "250,-1\n300,2\n",
+        "a,b\n",
+        "",
+        "250,nan\n260,1",
+    ],
 )
 def test_a_bad_spectrum_is_refused(tmp_path, text):
     file = tmp_path / "own.csv"

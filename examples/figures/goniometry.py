@@ -24,9 +24,9 @@ from hylios.lab.predecessors.biospec import goniometry
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted
+from hylios.transport.events import TRANSMITTED
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import Rays
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import TRANSMITTED
 
 FIGURES = ("6.5",)
 

@@ -9,8 +9,8 @@ from examples.figures.measured_people import People
 from hylios.adding import solve
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Model, Stack
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import spectrum
-from hylios.transport.survival import with_survival
 
 RANGE = np.arange(250.0, 2501.0, 5.0)
 """The whole range of the thesis at its resolution of 5 nm, (451,)."""

@@ -22,8 +22,8 @@ from hylios.lab.pictures import write_figure
 from hylios.lab.predecessors import biospec, donner_jensen
 from hylios.skin.specimen import SPECIMENS
 from hylios.transport.counting import counted
+from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.simulate import share_error
-from hylios.transport.walk import SUBSURFACE, SURFACE
 
 FIGURES = ("6.2", "6.3", "6.4")
 

@@ -10,8 +10,8 @@ from hylios.adding import solve
 from hylios.lab import colour
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Stack
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import count
-from hylios.transport.survival import with_survival
 
 GRID = np.arange(360.0, 781.0, 5.0)
 """Where the eye sees, in nm; the figures of what absorbs in skin are no finer."""

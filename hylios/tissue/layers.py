@@ -32,7 +32,7 @@ class Layer:
     and `scattering` (Henyey-Greenstein with mean cosine `anisotropy`) are scattering coefficients.
     `survival` is the probability of leaving one melanosome unabsorbed and `longest_path` the
     longest path inside that is to be expected; both follow from the rest and are filled in by
-    `hylios.transport.survival.with_survival`.
+    `hylios.transport.melanosome_paths.with_survival`.
     """
 
     thickness: float

@@ -34,8 +34,8 @@ from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted, skin_key, skin_stack
+from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.simulate import Rays, share_error
-from hylios.transport.walk import SUBSURFACE, SURFACE
 
 MOST_BINS = 1000
 

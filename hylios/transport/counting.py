@@ -8,8 +8,8 @@ from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
 from hylios.threads import in_threads, thread_count
 from hylios.tissue import Model, Stack
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, trace
-from hylios.transport.survival import with_survival
 
 
 def skin_stack(specimen: Specimen, wavelength: float, model: Model | None = None) -> Stack:

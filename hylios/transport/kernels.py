@@ -6,13 +6,8 @@ import numpy as np
 
 from hylios.transport.compiling import kernel
 from hylios.transport.equivalent import walk_equivalent
+from hylios.transport.events import ABSORBED, ABSORBED_IN_MELANOSOME, LOST, SUBSURFACE
 from hylios.transport.printed import walk_as_printed
-from hylios.transport.walk import (
-    ABSORBED,
-    ABSORBED_IN_MELANOSOME,
-    LOST,
-    SUBSURFACE,
-)
 
 
 def _tracing(as_printed: bool) -> Callable:
@@ -35,7 +30,7 @@ def _tracing(as_printed: bool) -> Callable:
             Parameters
             ----------
             layers, surroundings, readings
-                From `hylios.transport.walk.kernel_arguments`.
+                From `hylios.transport.stack_arrays.kernel_arguments`.
             sine, cosine : float
                 Of the angle of incidence; light arrives at the origin along (sine, 0, cosine).
             state : (4,) uint64 array
@@ -63,7 +58,7 @@ def _tracing(as_printed: bool) -> Callable:
                     )
                 else:
                     end, layer, position, ray = walk_equivalent(
-                        layers, surroundings, readings, ray, state
+                        layers, surroundings, readings, ray, state, None, 0
                     )
                 if end == LOST:
                     return False
@@ -113,7 +108,7 @@ def _counting(as_printed: bool) -> Callable:
                     )
                 else:
                     end, layer, position, ray = walk_equivalent(
-                        layers, surroundings, readings, ray, state
+                        layers, surroundings, readings, ray, state, None, 0
                     )
                 if end == LOST:
                     return False

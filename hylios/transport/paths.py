@@ -2,12 +2,12 @@
 
 A tan changes how much light is absorbed, how many melanosomes it meets, and the thickness of all
 layers by one factor. The density of a path is then that of `log_density`, linear in the sums that
-`hylios.transport.recording` keeps. A path walked in one state serves for another with the ratio of
+`hylios.transport.path_sums` keeps. A path walked in one state serves for another with the ratio of
 the two densities as its weight.
 
 Stacks of other thickness are put into that in which paths were walked (`rescaled`). What is not
 exact: melanosomes, which keep their size, lie more or less densely there; and see
-`hylios.transport.recording`. With 1e6 rays neither shows: at 550 nm S4's light at .8 and 1.48 of
+`hylios.transport.path_sums`. With 1e6 rays neither shows: at 550 nm S4's light at .8 and 1.48 of
 the thickness is its own walk's within their noise, .4 %; with coefficients only scaled, 3 % off.
 """
 
@@ -21,11 +21,12 @@ from hylios.threads import in_order
 from hylios.tissue import Layer, Stack
 from hylios.tissue.melanosome_encounters import encounters
 from hylios.tissue.melanosome_survival import is_tabulated, survival_in_melanosome
+from hylios.transport.equivalent import SUMS
 from hylios.transport.generator import stream
-from hylios.transport.recording import SUMS, record_paths
+from hylios.transport.melanosome_paths import with_survival
+from hylios.transport.path_sums import record_paths
 from hylios.transport.simulate import CHUNK, MOST_RAYS, NO_END
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import kernel_arguments
+from hylios.transport.stack_arrays import kernel_arguments
 
 SQUEEZES = 4
 """Steps in which the amount of melanosomes met is kept when layers are squeezed."""
@@ -47,7 +48,7 @@ class Paths:
     distance : (N,) array
         Between entry and exit, in mm.
     sums : (N, L, len(SUMS)) array
-        Sums over each way in each layer (`hylios.transport.recording.SUMS`), lengths in cm.
+        Sums over each way in each layer (`hylios.transport.equivalent.SUMS`), lengths in cm.
     """
 
     layers: Stack

@@ -10,6 +10,27 @@ one for each of its chords, which is the same.
 import math
 
 from hylios.transport.compiling import part
+from hylios.transport.events import (
+    ABSORBED,
+    ABSORBED_IN_MELANOSOME,
+    ABSORBER,
+    FIBRES,
+    INTERFACE,
+    LOST,
+    MELANOSOME,
+    MOST_DRAWS,
+    MOST_EVENTS,
+    SCATTERER,
+    SURFACE,
+    UNDECIDED,
+    UP,
+    at_face,
+    distance_to_face,
+    fits,
+    half_axes,
+    meet_face,
+    melanosomes_met,
+)
 from hylios.transport.generator import uniform
 from hylios.transport.interfaces import meet_surface
 from hylios.transport.melanosome import (
@@ -25,38 +46,25 @@ from hylios.transport.sampling import (
     henyey_greenstein_cosine,
     turned,
 )
-from hylios.transport.vectors import added, dot
-from hylios.transport.walk import (
-    ABSORBED,
-    ABSORBED_IN_MELANOSOME,
-    ABSORBER,
+from hylios.transport.stack_arrays import (
+    ABOVE,
     ABSORPTION,
     ANISOTROPY,
-    BOTTOM,
+    BENT,
+    BY_DIAMETER,
     COMPLEX_RADIUS,
     ENCOUNTER,
-    FIBRES,
+    EVERY_COLLISION,
+    EXPONENTIAL,
     INDEX,
-    INTERFACE,
-    LOST,
     MELANIN,
-    MELANOSOME,
-    MOST_DRAWS,
-    MOST_EVENTS,
+    MELANIN_INDEX,
     RAYLEIGH,
-    SCATTERER,
+    ROUGHNESS,
     SCATTERING,
-    SEMI_MAJOR,
-    SEMI_MINOR,
-    SURFACE,
-    TOP,
-    UNDECIDED,
-    UP,
-    distance_to_face,
-    fits,
-    meet_face,
-    melanosomes_met,
+    SCATTERING_ANGLE,
 )
+from hylios.transport.vectors import added, dot
 
 LEAST_SCALE = 1e-3
 """Parameter of algorithm 1 in radians, .06 degrees, below which its loop, of which a share near
@@ -90,74 +98,45 @@ def algorithm_2(state):
 
 @part
 def walk_as_printed(layers, surroundings, readings, ray, state):
-    """One ray from its arrival at the surface to its end.
+    """Walk one ray from its arrival at the surface to its end.
 
     Returns how it ended, the layer that absorbed it (-1 if none did), where, and its direction.
     """
-    roughness, above, _, melanin_index, scale, _ = surroundings
-    _, by_diameter, bent, exponential, every, _, _ = readings
     position = (0.0, 0.0, 0.0)
-    crossed, ray = meet_surface(state, ray, above, layers[0, INDEX], roughness)
+    crossed, ray = meet_surface(
+        state, ray, surroundings[ABOVE], layers[0, INDEX], surroundings[ROUGHNESS]
+    )
     if not crossed:
         return SURFACE, -1, position, ray
-
     here, fibres_ahead = 0, True
-    met, met_centre, met_axis = False, position, UP
+    before = (False, position, UP)
     for _ in range(MOST_EVENTS):
-        half_axes = (layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR])
         distance, event = _next_event(state, layers, here, position, ray, fibres_ahead)
-        axis, point, centre = UP, UP, position
-        if layers[here, ENCOUNTER] > 0.0:
-            for _draw in range(MOST_DRAWS):
-                path = free_path(state, layers[here, ENCOUNTER])
-                if path >= distance:
-                    break
-                axis, point, offset = drawn_body(
-                    state, ray, half_axes, layers[here, COMPLEX_RADIUS]
-                )
-                centre = added(added(position, path, ray), 1.0, offset)
-                if fits(layers, here, centre, axis) and not (
-                    met
-                    and overlap(
-                        centre, axis, met_centre, met_axis, half_axes, layers[here, COMPLEX_RADIUS]
-                    )
-                ):
-                    distance, event = path, MELANOSOME
-                    break
-
+        distance, event, body = _melanosome_before(
+            state, layers, here, position, ray, distance, event, before
+        )
         if distance == math.inf:
             return LOST, here, position, ray
         position = added(position, distance, ray)
-        if event == ABSORBER:
-            return ABSORBED, here, position, ray
-        if event == FIBRES:
-            ray = turned(state, ray, math.cos(algorithm_2(state)))
-            fibres_ahead = every
-        elif event == SCATTERER:
-            ray = turned(state, ray, henyey_greenstein_cosine(state, layers[here, ANISOTROPY]))
-        elif event == MELANOSOME:
-            optics = (layers[here, MELANIN], melanin_index, layers[here, INDEX], bent, math.inf)
-            if layers[here, COMPLEX_RADIUS] > 0.0:
-                count = melanosomes_met(layers, here, -dot(point, ray), by_diameter)
-                survived = survives_complex(state, ray, count, half_axes, optics)
-            else:
-                survived = survives_melanosome(state, ray, axis, point, half_axes, optics)
-            if not survived:
-                return ABSORBED_IN_MELANOSOME, here, position, ray
-            met, met_centre, met_axis = True, centre, axis
-            if scale > 0.0:
-                polar = (
-                    exponential_angle(state, scale) if exponential else algorithm_1(state, scale)
-                )
-                ray = turned(state, ray, math.cos(polar))
-        else:
-            fibres_ahead, met = True, False
-            # at the face itself, not where rounding has put the ray
-            face = layers[here, BOTTOM] if ray[2] > 0.0 else layers[here, TOP]
-            position = (position[0], position[1], face)
+        if event == INTERFACE:
+            fibres_ahead, before = True, (False, position, UP)
+            position = at_face(layers, here, position, ray)
             end, here, ray = meet_face(state, layers, surroundings, readings, here, ray)
             if end != UNDECIDED:
                 return end, -1, position, ray
+        elif event == ABSORBER:
+            return ABSORBED, here, position, ray
+        elif event == MELANOSOME:
+            axis, point, centre = body
+            if not _survives(state, layers, here, surroundings, readings, ray, axis, point):
+                return ABSORBED_IN_MELANOSOME, here, position, ray
+            before = (True, centre, axis)
+            ray = _turned_by_melanosome(state, ray, surroundings, readings)
+        elif event == FIBRES:
+            ray = turned(state, ray, math.cos(algorithm_2(state)))
+            fibres_ahead = readings[EVERY_COLLISION]
+        else:
+            ray = turned(state, ray, henyey_greenstein_cosine(state, layers[here, ANISOTROPY]))
     return LOST, here, position, ray
 
 
@@ -176,3 +155,48 @@ def _next_event(state, layers, here, position, ray, fibres_ahead):
     if path < distance:
         distance, event = path, SCATTERER
     return distance, event
+
+
+@part
+def _melanosome_before(state, layers, here, position, ray, distance, event, before):
+    """The event, or a melanosome or complex that comes before it and has room (figure 4.3).
+
+    `before` is whether one has been met in this traversal, its centre and its axis. Returns
+    distance and kind, and the axis, point hit and centre of what was met.
+    """
+    axis, point, centre = UP, UP, position
+    if layers[here, ENCOUNTER] > 0.0:
+        axes, radius = half_axes(layers, here), layers[here, COMPLEX_RADIUS]
+        met, met_centre, met_axis = before
+        for _draw in range(MOST_DRAWS):
+            path = free_path(state, layers[here, ENCOUNTER])
+            if path >= distance:
+                break
+            axis, point, offset = drawn_body(state, ray, axes, radius)
+            centre = added(added(position, path, ray), 1.0, offset)
+            if fits(layers, here, centre, axis) and not (
+                met and overlap(centre, axis, met_centre, met_axis, axes, radius)
+            ):
+                return path, MELANOSOME, (axis, point, centre)
+    return distance, event, (axis, point, centre)
+
+
+@part
+def _survives(state, layers, here, surroundings, readings, ray, axis, point):
+    """Whether a ray leaves a melanosome or complex unabsorbed."""
+    axes, index = half_axes(layers, here), surroundings[MELANIN_INDEX]
+    optics = (layers[here, MELANIN], index, layers[here, INDEX], readings[BENT], math.inf)
+    if layers[here, COMPLEX_RADIUS] > 0.0:
+        count = melanosomes_met(layers, here, -dot(point, ray), readings[BY_DIAMETER])
+        return survives_complex(state, ray, count, axes, optics)
+    return survives_melanosome(state, ray, axis, point, axes, optics)
+
+
+@part
+def _turned_by_melanosome(state, ray, surroundings, readings):
+    scale = surroundings[SCATTERING_ANGLE]
+    if scale <= 0.0:
+        return ray
+    if readings[EXPONENTIAL]:
+        return turned(state, ray, math.cos(exponential_angle(state, scale)))
+    return turned(state, ray, math.cos(algorithm_1(state, scale)))

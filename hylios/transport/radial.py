@@ -9,8 +9,8 @@ from hylios.errors import InputError, require_range, require_whole
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Model, Stack
 from hylios.transport.counting import counted, skin_key, skin_stack
+from hylios.transport.events import SUBSURFACE
 from hylios.transport.simulate import Rays, share_error
-from hylios.transport.walk import SUBSURFACE
 
 SMALLEST_MM, LARGEST_MM, RINGS = 0.01, 100.0, 60
 MOST_RINGS = 10_000

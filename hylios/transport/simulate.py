@@ -10,6 +10,7 @@ from hylios.skin.specimen import Specimen
 from hylios.spectra import require_wavelengths
 from hylios.threads import in_threads, thread_count
 from hylios.tissue import ABSORBERS, PARTS, Model, Stack, absorbers
+from hylios.transport.events import SUBSURFACE, SURFACE, TRANSMITTED
 from hylios.transport.generator import stream
 from hylios.transport.kernels import (
     count_as_printed,
@@ -17,8 +18,8 @@ from hylios.transport.kernels import (
     trace_as_printed,
     trace_equivalent,
 )
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import SUBSURFACE, SURFACE, TRANSMITTED, kernel_arguments
+from hylios.transport.melanosome_paths import with_survival
+from hylios.transport.stack_arrays import kernel_arguments
 
 CHUNK = 16384
 """Rays of one stream of random numbers; fixed, so that results do not depend on the threads."""

@@ -17,7 +17,7 @@ from hylios.tissue.melanosome_survival import (
     ratios,
 )
 from hylios.transport.generator import stream
-from hylios.transport.survival import walk_paths
+from hylios.transport.melanosome_paths import walk_paths
 
 PATHS = 1 << 19
 """Paths of one stream of random numbers."""

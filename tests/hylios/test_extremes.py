@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from hylios.errors import InputError
 from hylios.skin.specimen import ARRANGEMENTS, EPIDERMIS, SPECIMENS, parameters
 from hylios.tissue import READINGS, Layer, Model, Stack, complete_readings
-from hylios.transport import survival
+from hylios.transport import melanosome_paths
+from hylios.transport.events import LOST, SUBSURFACE
 from hylios.transport.simulate import DISTANCE_EDGES, count, spectrum, trace
-from hylios.transport.walk import LOST, SUBSURFACE
 
 RAYS = 60
 
@@ -26,9 +26,11 @@ RAYS = 60
 def few_paths():
     """Coarse tables of survival: here every example has refractive indices of its own."""
     with pytest.MonkeyPatch.context() as changed:
-        changed.setattr(survival, "PATHS", 1 << 12)
+        changed.setattr(melanosome_paths, "PATHS", 1 << 12)
         # The tables made before stay as they are, for the tests of other modules.
-        changed.setattr(survival, "path_lengths", lru_cache(survival.path_lengths.__wrapped__))
+        changed.setattr(
+            melanosome_paths, "path_lengths", lru_cache(melanosome_paths.path_lengths.__wrapped__)
+        )
         yield
 
 

@@ -18,10 +18,10 @@ from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Model, Stack
 from hylios.tissue.melanosome_survival import survival_in_melanosome
+from hylios.transport.events import TRANSMITTED
 from hylios.transport.interfaces import fresnel
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import spectrum, trace
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import TRANSMITTED
 
 WAVELENGTHS = np.array([250.0, 300.0, 400.0, 460.0, 550.0, 650.0, 800.0, 1050.0, 1450.0, 2200.0])
 OWN_ERROR = 0.0005

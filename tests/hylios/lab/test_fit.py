@@ -14,7 +14,7 @@ from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import SPECIMENS, parameters
 from hylios.skin.specimen_file import read_specimen
 from hylios.tissue import Stack
-from hylios.transport.survival import with_survival
+from hylios.transport.melanosome_paths import with_survival
 
 S3 = SPECIMENS["S3"]
 VISIBLE = np.arange(400.0, 701.0, 20.0)

@@ -12,9 +12,9 @@ from hylios.lab.predecessors import biospec, donner_jensen
 from hylios.lab.predecessors.donner_jensen import Medium
 from hylios.spectra import published_spectra
 from hylios.tissue import Layer, Stack
+from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.generator import stream
 from hylios.transport.simulate import trace
-from hylios.transport.walk import SUBSURFACE, SURFACE
 
 VISIBLE = np.arange(400.0, 701.0, 25.0)
 

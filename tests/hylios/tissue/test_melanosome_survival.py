@@ -15,8 +15,8 @@ from hylios.tissue.melanosome_survival import (
     is_tabulated,
     survival_in_melanosome,
 )
+from hylios.transport.melanosome_paths import survival, with_survival
 from hylios.transport.simulate import spectrum
-from hylios.transport.survival import survival, with_survival
 from hylios.transport.survival_table import quadrature
 
 WAVELENGTHS = (250.0, 300.0, 400.0, 460.0, 550.0, 650.0, 800.0, 1050.0, 1450.0, 2200.0)

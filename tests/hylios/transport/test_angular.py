@@ -15,8 +15,8 @@ from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Model, Stack
 from hylios.transport.angular import angular_reflectance, brdf
 from hylios.transport.counting import skin_key, skin_stack
+from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.simulate import CHUNK, trace
-from hylios.transport.walk import SUBSURFACE, SURFACE
 
 S3 = SPECIMENS["S3"]
 

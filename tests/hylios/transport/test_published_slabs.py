@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from hylios.tissue import Layer, Stack
+from hylios.transport.events import ABSORBED, SUBSURFACE, SURFACE, TRANSMITTED
 from hylios.transport.simulate import trace
-from hylios.transport.walk import ABSORBED, SUBSURFACE, SURFACE, TRANSMITTED
 
 RAYS = 400_000
 

@@ -12,9 +12,9 @@ from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Stack
 from hylios.transport.counting import skin_key, skin_stack
+from hylios.transport.events import SUBSURFACE
 from hylios.transport.radial import profile, radial_exitance
 from hylios.transport.simulate import CHUNK, trace
-from hylios.transport.walk import SUBSURFACE
 
 S3 = SPECIMENS["S3"]
 

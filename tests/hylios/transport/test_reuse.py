@@ -16,8 +16,7 @@ from hylios.skin.specimen import SPECIMENS, tanned
 from hylios.tissue import Layer, Stack, complete_readings
 from hylios.transport import reuse
 from hylios.transport.counting import skin_stack
-from hylios.transport.paths import effective_sample_size, ready, trace_paths, weights
-from hylios.transport.recording import (
+from hylios.transport.equivalent import (
     FIBRE_LENGTH,
     FIBRES_MET,
     GONE_THROUGH,
@@ -25,9 +24,10 @@ from hylios.transport.recording import (
     TRIED,
     TRIED_LENGTH,
 )
+from hylios.transport.events import SUBSURFACE
+from hylios.transport.paths import effective_sample_size, ready, trace_paths, weights
 from hylios.transport.reuse import Profiles, allocated, needed_samples, profiles, skin_profiles
 from hylios.transport.simulate import CHUNK, DISTANCE_EDGES, count, trace
-from hylios.transport.walk import SUBSURFACE
 
 LEVEL = 1e-4
 STATES = (

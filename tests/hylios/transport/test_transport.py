@@ -17,12 +17,12 @@ from hylios.skin.specimen import SPECIMENS
 from hylios.spectra import published_spectra
 from hylios.tissue import ABSORBERS, PARTS, Layer, Model, Stack, absorbers
 from hylios.transport import interfaces
-from hylios.transport.simulate import spectrum, trace
-from hylios.transport.survival import path_lengths, survival
-from hylios.transport.walk import (
+from hylios.transport.events import (
     SUBSURFACE,
     SURFACE,
 )
+from hylios.transport.melanosome_paths import path_lengths, survival
+from hylios.transport.simulate import spectrum, trace
 
 VISIBLE = np.array([400.0, 460.0, 520.0, 580.0, 640.0, 700.0])
 

@@ -14,9 +14,9 @@ from scipy import stats
 
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Model, Stack, complete_readings
+from hylios.transport.events import SUBSURFACE
+from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import count, spectrum, trace
-from hylios.transport.survival import with_survival
-from hylios.transport.walk import SUBSURFACE
 
 LEVEL = 1e-4
 VISIBLE = np.array([400.0, 460.0, 520.0, 580.0, 640.0, 700.0])

@@ -15,10 +15,10 @@ from numba import njit
 
 from hylios.skin.specimen import SPECIMENS, with_values
 from hylios.tissue import Layer, Model, Stack, complete_readings
+from hylios.transport.events import SURFACE, TRANSMITTED
 from hylios.transport.generator import stream
 from hylios.transport.interfaces import fresnel, meet_surface
 from hylios.transport.simulate import spectrum, trace
-from hylios.transport.walk import SURFACE, TRANSMITTED
 
 RAYS = 200_000
 

@@ -1,15 +1,38 @@
-"""Writing files: never over another one unasked, never half of one."""
+"""Files: read with a limit, written never over another one unasked and never half."""
 
 import os
+import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from hylios.errors import InputError
+from hylios.readers.text import shown
 
 HALF_WRITTEN = ".skin-tan-"
 """What the name of a file begins with while it is being written."""
+
+
+def regular_bytes(path: Path, most: int) -> bytes:
+    """What a regular file holds; a pipe or a device, which may never end, is refused.
+
+    Raises
+    ------
+    InputError
+        If it is no regular file, has more bytes than `most`, or cannot be read.
+    """
+    name = shown(path)
+    try:
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise InputError(f"{name} cannot be read: it is no regular file.")
+        with path.open("rb") as file:
+            data = file.read(most + 1)
+    except OSError as error:
+        raise InputError(f"{name} cannot be read: {error.strerror}.") from error
+    if len(data) > most:
+        raise InputError(f"{name} cannot be read: it has more than {most} bytes.")
+    return data
 
 
 def require_target(target: Path, suffixes: tuple[str, ...], replacing: bool) -> None:

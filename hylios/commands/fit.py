@@ -69,9 +69,9 @@ def run(asked: argparse.Namespace) -> None:
         target = f"{measured.name}, {shown(asked.column)}, at {wavelengths.size} wavelengths"
         error = f"root mean square error {found.rmse:.4f}"
     note_estimates(model, wavelengths)
-    for line in (f"Fitted to {target}: {error}.", *found.remarks()):
-        print(f"# {line}")
-    print(specimen_toml(replace(found.specimen, name=f"{start.name} fitted")), end="")
+    fitted = replace(found.specimen, name=f"{start.name} fitted")
+    remarks = (f"Fitted to {target}: {error}.", *found.remarks())
+    print(specimen_toml(fitted, remarks), end="")
 
 
 MOST_WAVELENGTHS = 61

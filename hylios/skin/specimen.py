@@ -1,8 +1,11 @@
 """Skin specimens: the parameters of tables 6.1 and 6.2 of the thesis."""
 
+import tomllib
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, dataclass, field, fields, replace
+from dataclasses import MISSING, Field, asdict, dataclass, field, fields, replace
+from importlib.resources import files
 from numbers import Real
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -16,11 +19,11 @@ MELANOSOME_SCALE = {"granulosum": 0.25, "spinosum": 0.5, "basale": 1.0}
 """Size of the melanosomes of a layer relative to table 6.1 (degradation upwards, section 6.1.1)."""
 
 
-def _parameter(unit: str, low: float, high: float, what: str, **default):
+def _parameter(unit: str, low: float, high: float, what: str, **default: float) -> Any:
     return field(metadata={"unit": unit, "low": low, "high": high, "what": what}, **default)
 
 
-def _fixed(value: float, unit: str, low: float, high: float, what: str):
+def _fixed(value: float, unit: str, low: float, high: float, what: str) -> Any:
     return _parameter(unit, low, high, what, default=value)
 
 
@@ -133,12 +136,12 @@ class Specimen:
         return float(self.melanin @ thickness / thickness.sum())
 
 
-def parameters():
+def parameters() -> list[Field]:
     """The numeric fields of `Specimen`, with unit, range and meaning in their metadata."""
     return [parameter for parameter in fields(Specimen) if parameter.metadata]
 
 
-def _unit(parameter) -> str:
+def _unit(parameter: Field) -> str:
     """A field's unit as it stands behind a number."""
     return "" if parameter.metadata["unit"] == "1" else parameter.metadata["unit"]
 
@@ -303,105 +306,13 @@ def _melanosome_share(specimen: Specimen, layer: str) -> float:
     return 0.01 * sum(getattr(specimen, f"{other}_melanosomes") for other in EPIDERMIS) / whole
 
 
-_LIGHT = {
-    "melanosome_arrangement": "complexes",
-    "melanosome_major_axis": 0.41,
-    "melanosome_minor_axis": 0.17,
-}
-
-SPECIMENS = {
-    specimen.name: specimen
-    for specimen in (
-        Specimen(
-            name="S1",
-            surface_fold_aspect_ratio=0.1,
-            corneum_thickness=0.001,
-            granulosum_thickness=0.0017,
-            spinosum_thickness=0.0017,
-            basale_thickness=0.0017,
-            papillary_thickness=0.02,
-            reticular_thickness=0.1,
-            granulosum_melanosomes=1.0,
-            spinosum_melanosomes=1.0,
-            basale_melanosomes=1.0,
-            granulosum_colloidal_melanin=0.8,
-            spinosum_colloidal_melanin=0.8,
-            basale_colloidal_melanin=0.8,
-            eumelanin_concentration=90.0,
-            pheomelanin_concentration=4.0,
-            papillary_blood=0.2,
-            reticular_blood=0.2,
-            oxygenated_blood=75.0,
-            **_LIGHT,
-        ),
-        Specimen(
-            name="S2",
-            surface_fold_aspect_ratio=0.25,
-            corneum_thickness=0.001,
-            granulosum_thickness=0.0033,
-            spinosum_thickness=0.0033,
-            basale_thickness=0.0033,
-            papillary_thickness=0.01,
-            reticular_thickness=0.1,
-            granulosum_melanosomes=0.0,
-            spinosum_melanosomes=0.0,
-            basale_melanosomes=3.75,
-            granulosum_colloidal_melanin=1.25,
-            spinosum_colloidal_melanin=1.25,
-            basale_colloidal_melanin=1.25,
-            eumelanin_concentration=50.0,
-            pheomelanin_concentration=2.0,
-            papillary_blood=0.7,
-            reticular_blood=0.7,
-            oxygenated_blood=95.0,
-            **_LIGHT,
-        ),
-        Specimen(
-            name="S3",
-            surface_fold_aspect_ratio=0.1,
-            corneum_thickness=0.0004,
-            granulosum_thickness=0.0033,
-            spinosum_thickness=0.0033,
-            basale_thickness=0.0033,
-            papillary_thickness=0.02,
-            reticular_thickness=0.125,
-            granulosum_melanosomes=0.0,
-            spinosum_melanosomes=0.0,
-            basale_melanosomes=3.0,
-            granulosum_colloidal_melanin=1.35,
-            spinosum_colloidal_melanin=1.35,
-            basale_colloidal_melanin=1.35,
-            eumelanin_concentration=32.0,
-            pheomelanin_concentration=2.0,
-            papillary_blood=0.3,
-            reticular_blood=0.3,
-            oxygenated_blood=75.0,
-            **_LIGHT,
-        ),
-        Specimen(
-            name="S4",
-            melanosome_arrangement="individual",
-            surface_fold_aspect_ratio=0.45,
-            corneum_thickness=0.0004,
-            granulosum_thickness=0.0007,
-            spinosum_thickness=0.0007,
-            basale_thickness=0.0007,
-            papillary_thickness=0.023,
-            reticular_thickness=0.2,
-            granulosum_melanosomes=10.0,
-            spinosum_melanosomes=10.0,
-            basale_melanosomes=10.0,
-            granulosum_colloidal_melanin=15.0,
-            spinosum_colloidal_melanin=15.0,
-            basale_colloidal_melanin=15.0,
-            eumelanin_concentration=50.0,
-            pheomelanin_concentration=4.0,
-            melanosome_major_axis=0.69,
-            melanosome_minor_axis=0.28,
-            papillary_blood=2.5,
-            reticular_blood=2.5,
-            oxygenated_blood=75.0,
-        ),
+def _read() -> Mapping[str, Specimen]:
+    text = files(__package__).joinpath("specimens.toml").read_text(encoding="utf-8")
+    return MappingProxyType(
+        {name: Specimen(name=name, **values) for name, values in tomllib.loads(text).items()}
     )
-}
-"""The four specimens of table 6.1: S1 to S3 lightly, S4 darkly pigmented."""
+
+
+SPECIMENS: Mapping[str, Specimen] = _read()
+"""The four specimens of table 6.1, as `specimens.toml` has them: S1 to S3 lightly, S4 darkly
+pigmented."""

@@ -1,14 +1,23 @@
 """Specimens as TOML files: the fields of `hylios.skin.specimen.Specimen` by name, one to a line."""
 
 import tomllib
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from hylios.errors import InputError
+from hylios.files import regular_bytes
+from hylios.readers.text import shown
 from hylios.skin.phototypes import named_specimen
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import Specimen, parameters, specimen_of
+
+MOST_BYTES = 2**16
+"""Of a file; all parameters with their comments have a tenth of it."""
+
+LONGEST_LINE = 1000
+"""Characters of a line."""
 
 
 def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
@@ -30,27 +39,47 @@ def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
             start = asdict(named_specimen(str(values.pop("base"))))
         return specimen_of({**start, **values}, allow_unphysical=allow_unphysical)
     except InputError as error:
-        raise InputError(f"the specimen in {path} cannot be used: {error}") from error
+        raise InputError(f"the specimen in {shown(path)} cannot be used: {error}") from error
 
 
 def _values(path: Path) -> dict[str, Any]:
+    data = regular_bytes(path, MOST_BYTES)
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        reason = error.strerror
+        text = data.decode("utf-8")
+        _require_short_lines(text)
+        return tomllib.loads(text)
     except RecursionError:
         reason = "its values are nested too deeply"
     except ValueError as error:
-        reason = str(error)
-    raise InputError(f"the specimen in {path} cannot be read: {reason}.")
+        reason = str(error).removesuffix(".")
+    raise InputError(f"the specimen in {shown(path)} cannot be read: {reason}.")
 
 
-def specimen_toml(specimen: Specimen) -> str:
+def _require_short_lines(text: str) -> None:
+    """Raise ValueError where a line is too long; so no key has so many parts that it fills memory.
+
+    A key stands on one line, and what it costs to read grows with the square of its parts.
+    """
+    for number, line in enumerate(text.splitlines(), start=1):
+        if len(line) > LONGEST_LINE:
+            raise ValueError(
+                f"line {number} has {len(line)} characters; allowed are up to {LONGEST_LINE}"
+            )
+
+
+def specimen_toml(specimen: Specimen, remarks: Iterable[str] = ()) -> str:
     """The specimen as TOML that `read_specimen` turns into an equal one.
 
     A comment on each line gives the unit, the physiological range and the meaning.
+
+    Parameters
+    ----------
+    remarks : iterable of str, optional
+        Comments before the rest, a line each; what cannot be printed, such as a line break in a
+        file's name, is escaped.
     """
     lines = [
+        *(f"# {shown(remark)}" for remark in remarks),
         f"name = {_quoted(specimen.name)}",
         f"melanosome_arrangement = {_quoted(specimen.melanosome_arrangement)}",
     ]

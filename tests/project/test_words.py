@@ -32,6 +32,7 @@ WELL_NAMED = (
 
 SHORT = (
     "hylios/*.py",
+    "hylios/skin",
     "hylios/spectra",
     "hylios/sun",
     "hylios/tanning",

@@ -1,6 +1,8 @@
 """Specimens in TOML files and the command that prints them."""
 
+import os
 import tomllib
+import tracemalloc
 from dataclasses import asdict, replace
 
 import pytest
@@ -108,10 +110,42 @@ def test_a_bad_file_is_one_sentence_and_status_2(written, capsys, text, sentence
     assert printed.out == ""
 
 
+def test_a_key_of_many_parts_takes_little_memory(written):
+    """One of 20,000 parts took 1.6 GB; what is still read has 500 on each of 60 lines."""
+    with pytest.raises(InputError, match="line 1 has 40003 characters; allowed are up to 1000"):
+        read_specimen(written(".".join(["a"] * 20_000) + " = 1"))
+    with pytest.raises(InputError, match="ada.toml cannot be read: it has more than 65536 bytes"):
+        read_specimen(written("# long\n" * 10_000))
+    most = "\n".join(f"b{line}." + ".".join(["a"] * 490) + " = 1" for line in range(60))
+    tracemalloc.start()
+    with pytest.raises(InputError, match="there is no parameter 'b0'"):
+        read_specimen(written(most))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 100e6
+
+
+def test_remarks_cannot_set_a_parameter(written):
+    """A file's name with a line break, as `fit` tells what it was fitted to."""
+    text = specimen_toml(S3, ["Fitted to a\nbasale_thickness = 1\x1b[2J.csv.", "Two of two."])
+    assert text.splitlines()[:2] == [
+        "# Fitted to a\\nbasale_thickness = 1\\x1b[2J.csv.",
+        "# Two of two.",
+    ]
+    assert read_specimen(written(text)) == S3
+
+
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
+    path = tmp_path / "pipe.toml"
+    os.mkfifo(path)
+    with pytest.raises(InputError, match="pipe.toml cannot be read: it is no regular file"):
+        read_specimen(path)
+
+
 def test_a_folder_is_refused(tmp_path):
     folder = tmp_path / "folder.toml"
     folder.mkdir()
-    with pytest.raises(InputError, match="folder.toml cannot be read: Is a directory"):
+    with pytest.raises(InputError, match="folder.toml cannot be read: it is no regular file"):
         read_specimen(folder)
 
 

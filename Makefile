@@ -41,10 +41,18 @@ simplifications: environment
 agreement: environment
 	@$(BIN)/python -m examples.agreement $(if $(RAYS),--rays $(RAYS))
 
-# make demo | figures | test | test-all | bench | docs | package | constraints: all but the last set
-# up what they need in VENV first.
-# PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS). All
-# packages have the versions of constraints/.
+# The site, into out/docs. What only Sphinx needs is installed once; building fetches nothing.
+docs: environment
+	@$(BIN)/python -c "import furo, myst_nb, numpydoc" 2>/dev/null || \
+	    $(BIN)/python -m pip install --quiet --disable-pip-version-check \
+	        --constraint $(VENV)/constraints.txt --editable ".[docs]"
+	@$(BIN)/python -m sphinx -W --keep-going -q -b html docs out/docs
+	@echo "out/docs/index.html"
+
+# The newest versions of all packages, for each Python here, into constraints/.
+.PHONY: constraints
+constraints:
+	@tools/pythons.sh | while read -r version python; do $$python tools/constraints.py || exit; done
 
 package: environment
 	@$(BIN)/python -m blender_addon.package

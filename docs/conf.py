@@ -1,7 +1,7 @@
 """Sphinx's settings. `make docs` builds the site into out/docs, with warnings as errors.
 
-Sphinx reads the docstrings, MyST the pages in Markdown and the notebook, furo lays them out. All
-three are at work in numpy's, scipy's and Jupyter's own documentation. Nothing is fetched: no
+Sphinx with numpydoc reads the docstrings as they are, which MkDocs would need rewritten. MyST-NB
+reads the pages in Markdown and runs the notebook. furo lays them out. Nothing is fetched: no
 intersphinx, no fonts or scripts of other sites.
 """
 
@@ -18,17 +18,13 @@ author = "The skin-tan authors"
 project_copyright = "the skin-tan authors"
 release = hylios.__version__
 
-extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon", "myst_nb"]
+extensions = ["sphinx.ext.autodoc", "numpydoc", "myst_nb"]
 exclude_patterns = ["README.md"]
 nitpicky = False
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_typehints_description_target = "documented_params"
-autodoc_class_signature = "separated"
-napoleon_google_docstring = False
-napoleon_use_ivar = True
-napoleon_use_rtype = False
+autodoc_typehints = "none"  # the docstrings say types with their shapes and units
+numpydoc_show_class_members = False
 default_role = "code"
 highlight_language = "none"  # most blocks are shells; Python says so
 

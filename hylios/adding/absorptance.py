@@ -30,6 +30,13 @@ def tabulated(
     ------
     InputError
         If the specimen has no spectrum (`hylios.adding.spectrum.spectrum`).
+
+    Examples
+    --------
+    >>> import hylios
+    >>> absorptance = hylios.ultraviolet_absorptance(hylios.specimen("S3"))
+    >>> print(f"{absorptance.values[0]:.2f} at {absorptance.wavelengths[0]:.0f} nm")
+    0.94 at 280 nm
     """
     return _absorptance(specimen, model or Model())
 

@@ -68,6 +68,13 @@ def spectrum(
     InputError
         If a wavelength, the angle or the number of nodes is out of range, or the melanosomes'
         shape or refractive index lies outside the table of survival.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> spectrum = hylios.solve_spectrum(hylios.specimen("S3"), [450, 550, 650])
+    >>> print(*(f"{share:.3f}" for share in spectrum.total))
+    0.218 0.310 0.575
     """
     asked = require_wavelengths(wavelengths, (model or Model()).spectra)
     stacks = [Stack.of(specimen, each, model) for each in asked]

@@ -1,13 +1,16 @@
 """Colour of a reflectance spectrum: CIE 1931 2 degree observer, D65, with colour-science."""
 
 import warnings
+from dataclasses import dataclass
 from functools import cache
+from typing import Protocol
 
 import numpy as np
 
 from hylios.errors import InputError
 
-with warnings.catch_warnings():  # it warns that it cannot plot without matplotlib
+# It warns that it cannot plot without matplotlib, and has numpy print as it did in 2017.
+with warnings.catch_warnings(), np.printoptions():
     warnings.simplefilter("ignore")
     import colour
 
@@ -128,3 +131,69 @@ def lab(linear: np.ndarray) -> np.ndarray:
 def difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """CIEDE2000 (...) between two arrays of linear Rec.709 (..., 3)."""
     return np.asarray(colour.delta_E(lab(first), lab(second), method="CIE 2000"))
+
+
+class Reflecting(Protocol):
+    """What has a reflectance over wavelengths: a spectrum solved, walked or measured."""
+
+    @property
+    def wavelengths(self) -> np.ndarray: ...
+
+    @property
+    def total(self) -> np.ndarray: ...
+
+
+@dataclass(frozen=True)
+class Colour:
+    """Colours under D65, to the CIE 1931 2 degree observer.
+
+    Attributes
+    ----------
+    linear : (..., 3) array
+        Linear Rec.709; a white diffuser is 1, 1, 1.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> light, dark = (
+    ...     hylios.Colour.of(hylios.solve_spectrum(hylios.specimen(name), range(400, 701, 20)))
+    ...     for name in ("II", "VI")
+    ... )
+    >>> print(*(f"{number:.0f}" for number in light.lab))
+    66 6 15
+    >>> print(f"{light.difference(dark):.0f} CIEDE2000 apart")
+    26 CIEDE2000 apart
+    """
+
+    linear: np.ndarray
+
+    @classmethod
+    def of(cls, spectrum: Reflecting) -> "Colour":
+        """The colour of a spectrum's total reflectance.
+
+        Parameters
+        ----------
+        spectrum
+            With `wavelengths` (W,) in nm, ascending, and `total` (..., W). Reflectance is taken as
+            linear between the wavelengths and constant beyond them.
+
+        Raises
+        ------
+        InputError
+            If the wavelengths do not ascend.
+        """
+        return cls(linear_rec709(spectrum.wavelengths, spectrum.total))
+
+    @property
+    def srgb(self) -> np.ndarray:
+        """sRGB (..., 3), 0 to 1; what lies outside is cut."""
+        return srgb(self.linear)
+
+    @property
+    def lab(self) -> np.ndarray:
+        """CIE L*a*b* (..., 3)."""
+        return lab(self.linear)
+
+    def difference(self, other: "Colour") -> np.ndarray:
+        """CIEDE2000 (...) to other colours."""
+        return difference(self.linear, other.linear)

@@ -329,6 +329,17 @@ def fit_spectrum(
     InputError
         As `fit`; and if the arrays do not agree, a reflectance is not 0 to 1, or a wavelength or
         the angle is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> wavelengths = range(400, 701, 50)
+    >>> measured = hylios.solve_spectrum(hylios.specimen("IV"), wavelengths).total
+    >>> fit = hylios.fit_spectrum(
+    ...     hylios.specimen("III"), wavelengths, measured, free=["melanin", "blood"]
+    ... )
+    >>> print(f"misses by {fit.rmse:.3f}")
+    misses by 0.003
     """
     wavelengths = np.asarray(wavelengths, dtype=float)
     reflectance = np.asarray(reflectance, dtype=float)
@@ -365,6 +376,13 @@ def fit_colour(
     ------
     InputError
         As `fit`; and if the colour is not three numbers from 0 to 1, or the angle is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> fit = hylios.fit_colour(hylios.specimen("III"), [0.7, 0.6, 0.5], free=["melanin"])
+    >>> fit.free[0].name, fit.free[0].determined
+    ('melanin', True)
     """
     srgb = np.asarray(srgb, dtype=float)
     if srgb.shape != (3,):

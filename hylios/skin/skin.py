@@ -54,6 +54,16 @@ class Skin:
         The set's, or a variation of it.
     untanned : str
         One of `UNTANNED`: which skin the state without sun is.
+
+    Examples
+    --------
+    Day 10 after 30 SED:
+
+    >>> import hylios
+    >>> skin = hylios.Skin.of(hylios.specimen("S3"))
+    >>> state = skin.states(hylios.Exposures([0], [30]), times=[240])[0]
+    >>> print(f"melanin {state[:3].sum():.2f}, thickness {state[3]:.2f}")
+    melanin 1.83, thickness 1.16
     """
 
     specimen: Specimen

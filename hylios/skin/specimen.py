@@ -39,6 +39,16 @@ class Specimen:
     ------
     InputError
         If a number is none or lies outside its possible range, or a text cannot be used.
+
+    Examples
+    --------
+    A variation of a specimen that has a name:
+
+    >>> from dataclasses import replace
+    >>> import hylios
+    >>> ruddy = replace(hylios.specimen("III"), papillary_blood=0.8)
+    >>> ruddy.papillary_blood
+    0.8
     """
 
     name: str

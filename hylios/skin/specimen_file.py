@@ -31,6 +31,12 @@ def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
     ------
     InputError
         If the file cannot be read or does not hold a specimen (`specimen_of`).
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import hylios
+    >>> specimen = hylios.read_specimen(Path("mine.toml"))  # doctest: +SKIP
     """
     values = _values(path)
     try:

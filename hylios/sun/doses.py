@@ -99,6 +99,14 @@ def of_uv_index(hour: float, index: float, duration: float, protection: Protecti
     ------
     InputError
         If one is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> doses = hylios.uv_index_doses(hour=10, index=8, duration=1.5)
+    >>> print(f"{doses.erythemal.sum():.1f} SED")
+    10.8 SED
+    >>> state = hylios.skin_type("III").states(doses.exposures(), times=[240])
     """
     require_range("UV index", index, 0.0, 50.0)
     hours, shares = _spread(hour, duration)
@@ -175,6 +183,17 @@ def of_sun(
     ------
     InputError
         If one is out of range, the hours do not ascend, or the day lies before the start.
+
+    Examples
+    --------
+    A June day at 40 degrees north, as a meter shows it and as it counts for the tan:
+
+    >>> from datetime import date
+    >>> import hylios
+    >>> absorptance = hylios.ultraviolet_absorptance(hylios.specimen("S3"))
+    >>> sun = hylios.sun_doses(date(2025, 6, 21), 10, 16, 40.0, absorptance)
+    >>> print(f"{sun.erythemal.sum():.0f} SED, counts as {sun.melanogenesis.sum():.0f}")
+    41 SED, counts as 128
     """
     for hour in (first, last):
         require_range("hour of sun", hour, 0.0, 24.0)

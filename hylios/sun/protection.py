@@ -93,6 +93,15 @@ def sunscreen(spf: float, amount: float = NOMINAL_AMOUNT) -> Protection:
     ------
     InputError
         If one is out of range.
+
+    Examples
+    --------
+    A factor of 30 as people put it on, a quarter of what the test has:
+
+    >>> import hylios
+    >>> thin = hylios.sunscreen(30, amount=0.5)
+    >>> print(f"lets {thin.of_sunlight():.2f} through")
+    lets 0.43 through
     """
     require_range("SPF", spf, 1.0, LARGEST_FACTOR)
     return _grey(spf ** -(_thickness(amount)))

@@ -20,6 +20,12 @@ def read_table(path: Path) -> SkinTable:
     ------
     InputError
         If the file cannot be read, is no table, or is cut short or damaged in any way.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import hylios
+    >>> table = hylios.read_table(Path("skin.exr"))  # doctest: +SKIP
     """
     data = _bytes(path)
     try:

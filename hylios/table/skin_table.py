@@ -18,12 +18,22 @@ class SkinTable:
     Attributes
     ----------
     axes : StateAxes
-    planes : mapping of names to (*axes.shape, components) arrays
+    planes : mapping of names to arrays, shape `axes.shape` and then components
         Some of `PLANES`; `docs/table_format.md` says what each holds.
     provenance : dict
         What made the table: specimen, pigmentation, wavelengths, rays, seed, errors, version.
     interpolation : str
         How the table is to be read between its knots, one of `INTERPOLATIONS`.
+
+    Examples
+    --------
+    The colour of a tan, from a table instead of from the model:
+
+    >>> from pathlib import Path
+    >>> import hylios
+    >>> table = hylios.read_table(Path("III.exr"))  # doctest: +SKIP
+    >>> states = hylios.skin_type("III").states(hylios.Exposures([0], [30]), times=[0, 240])
+    >>> table.plane("total_colour", states)  # doctest: +SKIP
     """
 
     axes: StateAxes

@@ -29,6 +29,15 @@ class Exposures:
     ------
     InputError
         If an hour or a dose is out of range or not a number, or the shapes do not agree.
+
+    Examples
+    --------
+    6 SED on each of three days, on bare skin and under cloth that lets a tenth through:
+
+    >>> import hylios
+    >>> exposures = hylios.Exposures([0, 24, 48], [[6, 6, 6], [0.6, 0.6, 0.6]])
+    >>> hylios.skin_type("II").states(exposures, times=[240, 480]).shape
+    (2, 2, 4)
     """
 
     hours: np.ndarray = field(default_factory=lambda: np.zeros(0, int))

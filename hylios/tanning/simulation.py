@@ -41,6 +41,13 @@ class TanningHistory:
         Melanin of basale, spinosum, granulosum relative to the total at hour 0.
     thickness : (..., T) float array
         Thickness of the skin relative to hour 0 (5.29).
+
+    Examples
+    --------
+    >>> import hylios
+    >>> history = hylios.skin_type("IV").history(hylios.Exposures([0], [30]), hours=720)
+    >>> print(f"darkest on day {history.hours[history.total.argmax()] / 24:.0f}")
+    darkest on day 11
     """
 
     hours: np.ndarray

@@ -28,6 +28,14 @@ class Model:
     ------
     InputError
         If there is no spectrum, no reading or no choice of that name.
+
+    Examples
+    --------
+    Another reading of the thesis where its text is open (`hylios.tissue.READINGS`):
+
+    >>> import hylios
+    >>> model = hylios.Model(readings={"rayleigh": "every_collision"})
+    >>> spectrum = hylios.solve_spectrum(hylios.specimen("S3"), [450], model=model)
     """
 
     spectra: Spectra = field(default_factory=dict)

@@ -131,6 +131,16 @@ def brdf(
     ------
     InputError
         If an argument is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> brdf = hylios.brdf(hylios.specimen("S3"), 550, angle=45, rays=1000)
+    >>> brdf.total.shape
+    (18, 12)
+    >>> reflectance = (brdf.total * brdf.projected_solid_angle).sum()
+    >>> print(f"{reflectance:.1f}")
+    0.3
     """
     return angular_reflectance(
         skin_stack(specimen, wavelength, model),

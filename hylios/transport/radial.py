@@ -141,6 +141,13 @@ def profile(
     ------
     InputError
         If an argument is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> profile = hylios.profile(hylios.specimen("S3"), 633, rays=2000)
+    >>> print(f"Burley's d is {profile.burley_width:.0f} mm")
+    Burley's d is 1 mm
     """
     return radial_exitance(
         skin_stack(specimen, wavelength, model),

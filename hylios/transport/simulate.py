@@ -273,6 +273,13 @@ def spectrum(
     ------
     InputError
         If a wavelength, the angle or the number of rays is out of range.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> spectrum = hylios.walk_spectrum(hylios.specimen("S3"), [550], rays=1000, seed=1)
+    >>> print(f"{spectrum.total[0]:.2f} +- {spectrum.standard_error[0]:.2f}")
+    0.31 +- 0.01
     """
     asked = require_wavelengths(wavelengths, (model or Model()).spectra)
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)

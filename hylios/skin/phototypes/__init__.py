@@ -100,6 +100,24 @@ def phototype(name: str) -> Phototype:
     )
 
 
+def skin_type(name: str) -> Skin:
+    """The skin of one of Fitzpatrick's types, I to VI, fitted to people.
+
+    Raises
+    ------
+    InputError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> skin = hylios.skin_type("III")
+    >>> print(f"tans from {skin.mmd:.1f} SED, reddens from {skin.med:.1f} SED")
+    tans from 5.7 SED, reddens from 3.3 SED
+    """
+    return phototype(name).skin
+
+
 def start(name: str) -> Specimen:
     """Where a type's fit starts: melanin lies as the tanning set's steady state (5.13)."""
     types = _read("types.toml")
@@ -138,6 +156,12 @@ def named_specimen(name: str) -> Specimen:
     ------
     InputError
         If there is none of that name.
+
+    Examples
+    --------
+    >>> import hylios
+    >>> hylios.specimen("S3").papillary_blood
+    0.3
     """
     if name not in specimens():
         raise InputError(f"there is no specimen {name!r}; there are {', '.join(specimens())}.")

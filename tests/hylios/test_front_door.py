@@ -1,0 +1,109 @@
+"""`import hylios`: the names a researcher needs, loaded when used, and their examples."""
+
+import ast
+import doctest
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hylios
+
+ROOT = Path(__file__).parents[2]
+HEAVY = ("numba", "colour", "scipy", "matplotlib", "bpy")
+
+
+def in_python(code, *path):
+    """Standard output of code in a Python of its own, with folders first on its path."""
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path[:0] = {[str(p) for p in path]}\n{code}"],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_importing_is_quick_and_loads_nothing_heavy():
+    code = (
+        "import time; start = time.perf_counter(); import hylios\n"
+        "print(time.perf_counter() - start, *sys.modules)"
+    )
+    tries = [in_python(code) for _ in range(3)]
+    assert min(float(seconds) for seconds, *_ in tries) < 0.1
+    assert not {name for _, *modules in tries for name in modules} & {*HEAVY, "numpy"}
+
+
+def test_a_tan_without_its_colour_loads_numpy_alone():
+    modules = in_python(
+        "import hylios; skin = hylios.skin_type('III')\n"
+        "state = skin.states(hylios.Exposures([0], [30]), times=[240])[0]\n"
+        "hylios.solve_spectrum(skin.at(state), [550]); hylios.Model; print(*sys.modules)"
+    )
+    assert "numpy" in modules and not set(modules) & set(HEAVY)
+
+
+@pytest.mark.parametrize("name", hylios.__all__)
+def test_a_name_is_what_a_type_checker_takes_it_for(name):
+    source = ast.parse((ROOT / "hylios" / "__init__.py").read_text(encoding="utf-8"))
+    typed = {
+        alias.asname or alias.name: (node.module, alias.name)
+        for node in ast.walk(source)
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+    module, original = typed[name]
+    __import__(module)
+    assert getattr(hylios, name) is getattr(sys.modules[module], original)
+    assert name in dir(hylios)
+
+
+def test_there_is_no_other_name():
+    with pytest.raises(AttributeError, match="hylios has no name 'spectrums'; dir\\(hylios\\)"):
+        _ = hylios.spectrums
+
+
+@pytest.mark.parametrize("name", hylios.__all__)
+def test_examples_of_the_reference_run(name):
+    value = getattr(hylios, name)
+    tests = [test for test in doctest.DocTestFinder(recurse=False).find(value, name)]
+    for test in tests:
+        ended = doctest.DocTestRunner(optionflags=doctest.FAIL_FAST).run(test)
+        assert ended.failed == 0
+    shown = inspect.isclass(value) or inspect.isfunction(value)
+    if shown and not issubclass(value if inspect.isclass(value) else object, Exception):
+        assert any(test.examples for test in tests), f"hylios.{name} has no example"
+
+
+def test_type_iii_on_day_10_is_five_lines():
+    skin = hylios.skin_type("III")
+    state = skin.states(hylios.Exposures([0], [30]), times=[240])[0]
+    spectrum = hylios.solve_spectrum(skin.at(state), range(380, 781, 5))
+    colour = hylios.Colour.of(spectrum)
+    assert spectrum.total.shape == (81,)
+    assert colour.lab == pytest.approx([53.3, 9.1, 20.1], abs=0.1)
+    assert colour.srgb == pytest.approx([0.605, 0.474, 0.366], abs=0.002)
+
+
+def test_the_part_that_the_add_on_carries_says_what_it_lacks(tmp_path):
+    """As in Blender, where the rooms of a laboratory are left out."""
+    for source in (ROOT / "hylios").rglob("*"):
+        place = source.relative_to(ROOT)
+        if source.is_file() and place.parts[1] not in ("lab", "transport", "commands"):
+            (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / place).write_bytes(source.read_bytes())
+    code = (
+        # Else what an editable installation finds elsewhere would fill the gaps.
+        "ours = [finder for finder in sys.meta_path if 'editable' not in repr(finder)]\n"
+        "sys.meta_path[:] = ours\n"
+        "import hylios; hylios.skin_type('II'); assert hylios.__file__.startswith(sys.path[0])\n"
+        "try:\n    hylios.walk_spectrum\n"
+        "except ImportError as error:\n    print(error)"
+    )
+    assert " ".join(in_python(code, tmp_path)) == (
+        "hylios.walk_spectrum is not in this copy of hylios, which a Blender add-on carries; "
+        "`pip install skin-tan` has all of it."
+    )

@@ -30,7 +30,7 @@ from hylios.tanning import PIGMENTATIONS, Exposures, simulate
 from lut_builder.assemble import build
 from lut_builder.axes import choose_axes, reachable_states, untanned_state
 from lut_builder.check import check
-from lut_builder.cli import _parser, main
+from lut_builder.cli import main, parser
 from lut_builder.exr_writer import write_table
 from lut_builder.settings import PRESETS, Settings
 
@@ -262,7 +262,7 @@ def test_a_types_own_ability_gives_way_to_what_is_set():
         ("--pigmentation low", low),
         ("--pigmentation high", PIGMENTATIONS["high"]),
     ):
-        asked = _parser().parse_args(["build", "--skin", "IV", *more.split(), "-o", "t.exr"])
+        asked = parser().parse_args(["build", "--skin", "IV", *more.split(), "-o", "t.exr"])
         assert chosen_tanning_skin(asked).dynamics == dynamics
 
 
@@ -402,4 +402,4 @@ def test_a_table_says_what_was_changed(tmp_path):
 
 def test_presets_of_the_command_are_those_of_the_builder():
     for preset in PRESETS:
-        assert _parser().parse_args(["build", "--preset", preset, "-o", "t.exr"]).preset == preset
+        assert parser().parse_args(["build", "--preset", preset, "-o", "t.exr"]).preset == preset

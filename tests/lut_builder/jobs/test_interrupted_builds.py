@@ -44,7 +44,7 @@ def test_killed_at_20_random_moments_and_resumed(tmp_path, undisturbed):
 
 def test_threads_do_not_change_the_file(tmp_path, monkeypatch, undisturbed):
     """In two other processes."""
-    monkeypatch.setattr("lut_builder.cli.SHORT", 0.0)
+    monkeypatch.setattr("lut_builder.commands.build.SHORT", 0.0)
     path = tmp_path / "t.exr"
     assert main(["build", *WORK, "--threads", "2", "-o", str(path)]) == 0
     assert path.read_bytes() == undisturbed

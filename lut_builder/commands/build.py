@@ -1,0 +1,199 @@
+"""`lut-builder build`: a table of a skin's tanning states."""
+
+import argparse
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hylios.commands.shell import (
+    add_skin_arguments,
+    add_tanning_arguments,
+    add_work_arguments,
+    chosen_skin,
+    chosen_tanning_skin,
+    number,
+    require_work,
+)
+from hylios.errors import InputError, require_whole
+from hylios.quadrature import FEWEST, MOST
+from hylios.skin import UNTANNED
+from hylios.table import INTERPOLATIONS
+from lut_builder.commands.limits import (
+    add_limit_arguments,
+    has_limit,
+    measured_points,
+    point_within,
+)
+from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
+from lut_builder.trade.points import described, usable_cores
+
+if TYPE_CHECKING:
+    from lut_builder.jobs.run import Runner
+
+SCENE_DAYS = 60.0
+"""Of a schedule's scene by default."""
+
+SHORT = 5.0
+"""Seconds of work below which the start of other processes does not pay."""
+
+
+def add_build(commands) -> None:
+    """Add the command to an argument parser's commands."""
+    parser = commands.add_parser("build", help="simulate a skin's tanning states into a table")
+    parser.set_defaults(command=build_table)
+    add_skin_arguments(parser)
+    add_work_arguments(parser)
+    add_tanning_arguments(parser)
+    parser.add_argument(
+        "--untanned",
+        choices=list(UNTANNED),
+        default="steady_state",
+        help="skin without sun: 5.16 as printed, melanin by the tanning set's steady state, or "
+        "the specimen's own distribution",
+    )
+    _add_settings_arguments(parser)
+    _add_scene_arguments(parser)
+    _add_output_arguments(parser)
+
+
+def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
+    """What `_settings` reads."""
+    parser.add_argument("--preset", choices=list(PRESETS), default="standard")
+    add_limit_arguments(parser)
+    parser.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
+    parser.add_argument("--wavelengths", type=int, help="from which colours are made, 4 to 16")
+    parser.add_argument(
+        "--bands", help="what to hold: visible and wavelengths in nm, such as visible,365,1100"
+    )
+    parser.add_argument(
+        "--profile-error",
+        type=float,
+        help="standard error of light skin's cumulative diffusion profile; dark skin's is larger, "
+        "as it shows less",
+    )
+    parser.add_argument(
+        "--no-profile", action="store_true", help="no diffusion profile: for renders without"
+    )
+    parser.add_argument("--nodes", type=int, help="directions of the solver, 6 to 200")
+    parser.add_argument("--interpolation", choices=INTERPOLATIONS, help="between the knots")
+    parser.add_argument("--half", action="store_true", help="store numbers of 16 bits")
+
+
+def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--schedule",
+        type=Path,
+        metavar="FILE.csv",
+        help="compute only the states that these doses lead to; CSV with the columns hour, "
+        "melanogenesis_sed, thickening_sed, as `hylios dose` prints and the add-on exports",
+    )
+    parser.add_argument(
+        "--days", type=float, help=f"that the schedule's scene lasts ({SCENE_DAYS:g})"
+    )
+
+
+def _add_output_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the work is done, and where to."""
+    parser.add_argument(
+        "--resume", action="store_true", help="go on with a build that was interrupted"
+    )
+    parser.add_argument(
+        "--force", action="store_true", help="replace an existing file and unfinished work"
+    )
+    parser.add_argument(
+        "--dask",
+        metavar="tcp://HOST:PORT",
+        help="spread the work over the Dask cluster with this scheduler; this process and the "
+        "workers run whatever the scheduler sends them, so use only one that you trust",
+    )
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.exr")
+
+
+def build_table(arguments: argparse.Namespace) -> None:
+    """Build a table and write it."""
+    require_work(arguments)
+    if arguments.days is not None and arguments.schedule is None:
+        raise InputError(f"--days is {arguments.days:g} without a --schedule; allowed is both.")
+    settings = _settings(arguments)
+    _, model = chosen_skin(arguments)
+    skin = chosen_tanning_skin(arguments, arguments.untanned)
+
+    # numba, colour-science and OpenImageIO take a second or more.
+    from hylios.history import read_schedule
+    from lut_builder.assemble import assembled, requested, units
+    from lut_builder.commands.resumable import resumable
+    from lut_builder.exr_writer import write_table
+    from lut_builder.jobs.run import run_units
+    from lut_builder.jobs.software import software_digest
+    from lut_builder.schedule import reached_states
+
+    reached = None
+    if arguments.schedule is not None:
+        days = SCENE_DAYS if arguments.days is None else arguments.days
+        reached = reached_states(skin, read_schedule(arguments.schedule), days)
+    request = requested(skin, settings, seed=arguments.seed, model=model, reached=reached)
+    count, work = len(request.states), units(request)
+    with resumable(arguments, ".exr") as unfinished:
+        if reached is not None:
+            whole = request.whole
+            saved = f"{1.0 - count / whole:.0%}" if count < whole else "none"
+            print(f"states for the scene: {count}, for any sun: {whole}; {saved} saved")
+        runner = _runner(arguments, sum(unit.size for unit in work))
+        label = f"table of {count} states"
+        results = run_units(work, unfinished.folder, software_digest(), runner, label)
+        table = assembled(request, results)
+        write_table(unfinished.result, table, half=settings.half)
+    cut = table.provenance["states_with_melanin_cut"]
+    if cut:
+        print(f"note: {cut} of {count} states would overfill a layer with melanin; cut")
+    print(f"wrote {arguments.output}: {os.path.getsize(arguments.output) / 1000:.1f} KB")
+
+
+def _runner(arguments: argparse.Namespace, seconds: float) -> "Runner":
+    """Where the units are done: on a cluster, in this process if they are short, or in several."""
+    from lut_builder.jobs.local import in_processes, in_threads
+
+    if arguments.dask is not None:
+        from lut_builder.jobs.cluster import on_cluster
+
+        return on_cluster(arguments.dask)
+    cores = arguments.threads or os.cpu_count() or 1
+    return in_threads(cores) if seconds < SHORT else in_processes(cores)
+
+
+def _start(arguments: argparse.Namespace) -> Settings:
+    """The settings that other arguments change: a preset's, or those of a point of the front."""
+    if not has_limit(arguments):
+        return PRESETS[arguments.preset]
+    with_colours = arguments.bands is None or VISIBLE in arguments.bands
+    profile = with_colours and not arguments.no_profile
+    point = point_within(arguments, measured_points(arguments), profile)
+    cores = usable_cores(arguments.threads)
+    print(f"chosen: {described(point, cores)}, as measured for the front's machine and skin")
+    return point.settings
+
+
+def _settings(arguments: argparse.Namespace) -> Settings:
+    settings = _start(arguments)
+    if arguments.knots is not None:
+        counts = [number(part, "number of knots") for part in arguments.knots.split(",")]
+        knots = (require_whole("number of knots", count, 1, MOST_KNOTS) for count in counts)
+        settings = replace(settings, knots=tuple(knots))
+    if arguments.wavelengths is not None:
+        count = require_whole("number of wavelengths", arguments.wavelengths, FEWEST, MOST)
+        settings = replace(settings, colour_wavelengths=count)
+    if arguments.bands is not None:
+        bands = [band.strip() for band in arguments.bands.split(",") if band.strip()]
+        shown = settings.colour_wavelengths if VISIBLE in bands else 0
+        single = tuple(number(band, "band") for band in bands if band != VISIBLE)
+        settings = replace(settings, colour_wavelengths=shown, bands=single)
+    if arguments.profile_error is not None:
+        settings = replace(settings, profile_error=arguments.profile_error)
+    if arguments.no_profile:
+        settings = replace(settings, profile_error=0.0)
+    if arguments.nodes is not None:
+        settings = replace(settings, nodes=arguments.nodes)
+    if arguments.interpolation is not None:
+        settings = replace(settings, interpolation=arguments.interpolation)
+    return replace(settings, half=arguments.half or settings.half)

@@ -1,0 +1,54 @@
+"""`lut-builder info`: what a table is."""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from hylios.table import SkinTable, read_table
+from hylios.table.kinds import printable
+
+ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
+"""Planes that say how good the others are."""
+
+
+def add_info(commands) -> None:
+    """Add the command to an argument parser's commands."""
+    parser = commands.add_parser("info", help="say what a table is")
+    parser.set_defaults(command=info)
+    parser.add_argument("table", type=Path)
+
+
+def info(arguments: argparse.Namespace) -> None:
+    """Print what a table's header says, and how good its numbers are."""
+    table = read_table(arguments.table)
+    # Whoever made the file wrote these texts: none reaches the terminal as it is.
+    for line in described(table):
+        print(printable(line))
+
+
+def described(table: SkinTable) -> list[str]:
+    """What there is to say of a table, line by line."""
+    lines = []
+    for name, value in table.provenance.items():
+        if isinstance(value, dict) and value:
+            lines += [f"{name}:", *(f"  {key}: {one}" for key, one in value.items())]
+        elif name == "estimated_figures":
+            lines += [f"{name}:", *(f"  {one}" for one in value)]
+        else:
+            lines.append(f"{name}: {value}")
+    lines.append(f"planes: {', '.join(table.planes)}")
+    for name in ERRORS:
+        if name in table.planes:
+            values = table.planes[name]
+            lines.append(
+                f"{name}: {values.min():.3g} to {values.max():.3g}, mean {values.mean():.3g}"
+            )
+    directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
+    for axis, (direction, knots) in enumerate(directions, start=1):
+        listed = np.array2string(np.round(knots, 3), max_line_width=10**6)
+        lines.append(
+            f"axis {axis}: {np.round(direction, 3)} in ln of (basale, spinosum, granulosum, "
+            f"thickness) to the untanned, knots {listed}"
+        )
+    return lines

@@ -24,6 +24,8 @@ WELL_NAMED = (
     "hylios/tanning",
     "hylios/tissue",
     "blender_addon/package.py",
+    "tests/docs",
+    "tests/hylios/test_front_door.py",
     "tests/hylios/test_history.py",
     "tests/project",
     "tools",

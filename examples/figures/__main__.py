@@ -14,6 +14,8 @@ from examples.figures import (
     absorbers,
     angular,
     compression,
+    dose_responses,
+    dose_schedules,
     goniometry,
     hyperspectral,
     melanin_forms,
@@ -22,7 +24,6 @@ from examples.figures import (
     renders,
     report,
     sensitivity,
-    tanning,
     tanning_claims,
 )
 from examples.figures.light import Effort, Task
@@ -39,7 +40,8 @@ GROUPS = (
     angular,
     sensitivity,
     compression,
-    tanning,
+    dose_schedules,
+    dose_responses,
     tanning_claims,
     people,
     renders,

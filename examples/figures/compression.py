@@ -1,25 +1,23 @@
 """Figures D.1 to D.9 and table D.1: 144 spectra compressed by their principal components."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from itertools import product
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from examples.figures.drawing import COLOURS, plot, reflectance_axes, sheet, swatch
 from examples.figures.light import RANGE, THESIS_RAYS, Curve, Effort, Task, noise_free, noisy
+from examples.figures.principal_components import METHODS, PIECES, errors, pieces, reconstructed
 from examples.figures.report import Row, claim, with_noise
+from examples.figures.specimen_database import database, subsets
 from hylios.lab.colour import difference
 from hylios.lab.colour import swatch as visible_colour
 from hylios.lab.pictures import write_figure
-from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 FIGURES = (*(f"D.{number}" for number in range(1, 10)), "table D.1")
 
 ANGLE = 10.0
-PIECES = {"UV-visible": (250.0, 700.0), "IR-A": (700.0, 1400.0), "IR-B": (1400.0, 2500.0)}
-"""Regions of the piecewise analysis in nm; where two meet belongs to the first."""
 
 COMPONENTS = (1, 2, 3, 4, 8)
 PRINTED = {
@@ -35,19 +33,6 @@ LOW_ERROR = 0.01
 NOISY_RAYS = (1_000, 10_000, THESIS_RAYS, 1_000_000, 10_000_000, 100_000_000)
 NOISE_SHARE = 0.1
 """What noise may add to a maximum RMSE and not be what is measured."""
-
-TYPES = ("S3", "S4")
-"""Whose melanin and blood are varied."""
-
-LEVELS = (0.75, 1.25)
-"""Melanin and blood relative to the type's."""
-
-WATER = tuple(np.linspace(0.75, 1.25, 4))
-LIPIDS = (0.75, 1.0, 1.25)
-"""Water in every layer, and lipids below the stratum corneum, relative to table 6.2."""
-
-WATERY = ("corneum", "epidermis", "papillary", "reticular")
-FATTY = WATERY[1:]
 
 
 @dataclass(frozen=True)
@@ -76,94 +61,9 @@ SWATCHES = (
 """Figures of swatches: of which case, and by which methods and numbers of components."""
 
 
-def database() -> dict[str, Specimen]:
-    """The 144 specimens: N1 to N96 melanotic, N97 to N144 without melanin.
-
-    The thesis prints ranges, not the grid, but their ends are 0.75 times values of S3 and 1.25
-    times values of S4 (eumelanin 24 = 0.75 x 32 and 62.5 = 1.25 x 50; so too pheomelanin and
-    blood), and of table 6.2 (water 26.25 = 0.75 x 35 and 93.75 = 1.25 x 75; lipids 11.32 = 0.75
-    x 15.1, and 0.25, read as 25 % = 1.25 x 20). So here S3, with its own melanin and blood or
-    S4's, has melanin and blood at 2 levels, water at 4, lipids at 3: 96 specimens, of which 48
-    are left without melanin. How many levels each has is a guess. Wettest, water and lipids
-    together fill more than the dermis, which the thesis's own ranges do not exclude.
-    """
-    grid = list(product(TYPES, LEVELS, WATER, LIPIDS))
-    skins = [with_melanin(mixed(*each), each[0], level) for level in LEVELS for each in grid]
-    skins += [amelanotic(mixed(*each)) for each in grid]
-    return {f"N{number}": replace(skin, name=f"N{number}") for number, skin in enumerate(skins, 1)}
-
-
-def mixed(kind: str, blood: float, water: float, lipids: float) -> Specimen:
-    """S3 with a type's blood times a factor, and its own water and lipids times theirs."""
-    start = SPECIMENS["S3"]
-    values = {
-        f"{layer}_blood": blood * getattr(SPECIMENS[kind], f"{layer}_blood")
-        for layer in ("papillary", "reticular")
-    }
-    values |= {f"{layer}_water": water * getattr(start, f"{layer}_water") for layer in WATERY}
-    values |= {f"{layer}_lipids": lipids * getattr(start, f"{layer}_lipids") for layer in FATTY}
-    return with_values(start, values, allow_unphysical=True)
-
-
-def with_melanin(skin: Specimen, kind: str, level: float) -> Specimen:
-    """The specimen with a type's concentrations of melanin times a factor."""
-    names = ("eumelanin_concentration", "pheomelanin_concentration")
-    values = {name: level * getattr(SPECIMENS[kind], name) for name in names}
-    return with_values(skin, values, allow_unphysical=True)
-
-
-def amelanotic(skin: Specimen) -> Specimen:
-    """The specimen without melanin."""
-    kinds = ("melanosomes", "colloidal_melanin")
-    values = {f"{layer}_{kind}": 0.0 for layer in EPIDERMIS for kind in kinds}
-    return with_values(skin, values, allow_unphysical=True)
-
-
-def subsets(spectra: np.ndarray) -> dict[str, np.ndarray]:
-    """Rows of a matrix (144, W) by subset."""
-    melanotic = len(spectra) * 2 // 3
-    return {"melanotic": spectra[:melanotic], "amelanotic": spectra[melanotic:], "all": spectra}
-
-
 def tasks(effort: Effort) -> dict[str, Task]:
     """A curve without noise for each specimen."""
     return {name: noise_free(skin, RANGE, ANGLE) for name, skin in database().items()}
-
-
-def reconstructed(spectra: np.ndarray, components: int) -> np.ndarray:
-    """Spectra (S, W) from their first principal components (D.1).
-
-    As the thesis has it: no mean is subtracted, the components are the right singular vectors
-    of the spectra, the coefficients their product with the spectra.
-    """
-    _, _, rows = np.linalg.svd(spectra, full_matrices=False)
-    basis = rows[:components].T
-    return spectra @ basis @ basis.T
-
-
-def piecewise(spectra: np.ndarray, components: int) -> np.ndarray:
-    """Spectra (S, W) from so many components of each region (D.1)."""
-    return np.hstack([reconstructed(spectra[:, piece], components) for piece in pieces()])
-
-
-def pieces() -> list[np.ndarray]:
-    """Which wavelengths of `RANGE` belong to each region, (W,) bool."""
-    lasts = [last for _, last in PIECES.values()]
-    return [
-        (RANGE > first) & (RANGE <= last)
-        for first, last in zip([-np.inf, *lasts[:-1]], lasts, strict=True)
-    ]
-
-
-def errors(spectra: np.ndarray, again: np.ndarray) -> np.ndarray:
-    """RMSE of each spectrum, (S,)."""
-    return np.sqrt(np.mean((spectra - again) ** 2, axis=1))
-
-
-METHODS: Mapping[str, Callable[[np.ndarray, int], np.ndarray]] = {
-    "PCA": reconstructed,
-    "PPCA": piecewise,
-}
 
 
 def largest(spectra: np.ndarray, method: str) -> dict[str, list[float]]:

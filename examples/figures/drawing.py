@@ -9,10 +9,14 @@ from matplotlib.figure import Figure
 from examples.figures.light import Curve
 from hylios.lab.colour import BANDS, srgb
 from hylios.lab.colour import swatch as colour_of_band
+from hylios.tanning import TanningHistory
 
 COLOURS = ("black", "#c1272d", "#0072b2", "#009e73", "#e69f00", "#7b3294")
 DOMAINS = {"UV": BANDS["uv"], "visible": BANDS["visible"], "IR": BANDS["ir"]}
 """Domains of section 6.1.3 in nm; where two meet belongs to both."""
+
+LAYERS = {"stratum basale": "-", "stratum spinosum": "--", "stratum granulosum": "-."}
+"""Line of each layer, as in the thesis."""
 
 
 def sheet(width: float = 7.0, height: float = 4.2, columns: int = 1, rows: int = 1, **options):
@@ -51,6 +55,13 @@ def points(axes: Axes, curves: Sequence[Curve], domain: tuple[float, float]) -> 
             markersize=4,
             elinewidth=0.8,
         )
+
+
+def plot_layers(axes: Axes, states: TanningHistory) -> None:
+    """Draw the melanin of each layer over days, relative to all melanin at the start."""
+    for number, (layer, line) in enumerate(LAYERS.items()):
+        content = states.melanin[:, number]
+        axes.plot(states.hours / 24, content, color=COLOURS[number + 1], ls=line, label=layer)
 
 
 def swatch(axes: Axes, curve: Curve, domain: str, title: str) -> None:

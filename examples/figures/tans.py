@@ -82,6 +82,11 @@ def history(skin: Skin, schedule: Schedule, days: float) -> TanningHistory:
     return skin.history(exposures, round(24 * days))
 
 
+def rise(states: TanningHistory) -> float:
+    """Largest increase of all melanin, relative to the start."""
+    return float(states.total.max() - 1.0)
+
+
 def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHistory:
     """States after one dose on day 0, for each of some doses in SED; shapes (D, T, ...)."""
     exposures = Exposures(np.array([0]), np.array(doses, dtype=float)[:, None])

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from examples.figures import __main__ as program
-from examples.figures import absorbers, compression, melanin_forms, report, sensitivity
+from examples.figures import (
+    absorbers,
+    compression,
+    melanin_forms,
+    principal_components,
+    report,
+    sensitivity,
+    specimen_database,
+)
 from examples.figures.light import RANGE, Curve, Effort, noisy
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
@@ -42,15 +50,15 @@ def test_every_figure_of_the_appendices_has_one_owner():
 
 
 def test_the_database_has_96_melanotic_and_48_amelanotic_specimens_within_the_ranges():
-    skins = list(compression.database().values())
+    skins = list(specimen_database.database().values())
     melanotic = [skin for skin in skins if skin.melanin.any()]
     assert [len(skins), len(melanotic)] == [144, 96]
     assert len({repr(skin).split(",", 1)[1] for skin in skins}) == 144
     for skin in skins:
         assert 0.225 - 1e-12 <= skin.papillary_blood == skin.reticular_blood <= 3.125
-        waters = [getattr(skin, f"{layer}_water") for layer in compression.WATERY]
+        waters = [getattr(skin, f"{layer}_water") for layer in specimen_database.WATERY]
         assert 26.25 <= min(waters) and max(waters) <= 93.75
-        lipids = [getattr(skin, f"{layer}_lipids") for layer in compression.FATTY]
+        lipids = [getattr(skin, f"{layer}_lipids") for layer in specimen_database.FATTY]
         assert 11.32 <= min(lipids) and max(lipids) <= 25.0
     for skin in melanotic:
         assert 24.0 <= skin.eumelanin_concentration <= 62.5
@@ -59,27 +67,31 @@ def test_the_database_has_96_melanotic_and_48_amelanotic_specimens_within_the_ra
 
 def test_components_span_what_they_span():
     """As many components as the rank give the spectra back; fewer leave what SVD says."""
-    assert np.allclose(compression.reconstructed(SPECTRA, 4), SPECTRA, atol=1e-12)
+    assert np.allclose(principal_components.reconstructed(SPECTRA, 4), SPECTRA, atol=1e-12)
     singular = np.linalg.svd(SPECTRA, compute_uv=False)
     for count in (1, 2, 3):
-        left = SPECTRA - compression.reconstructed(SPECTRA, count)
+        left = SPECTRA - principal_components.reconstructed(SPECTRA, count)
         assert np.linalg.norm(left) == pytest.approx(np.linalg.norm(singular[count:]), rel=1e-9)
 
 
 def test_no_mean_is_subtracted():
     """Multiples of one curve need one component, which a centred analysis would not give 0."""
     shape = SPECTRA[:1]
-    assert np.allclose(compression.reconstructed(np.vstack([shape, 2 * shape]), 1)[1], 2 * shape)
+    assert np.allclose(
+        principal_components.reconstructed(np.vstack([shape, 2 * shape]), 1)[1], 2 * shape
+    )
 
 
 def test_piecewise_analysis_keeps_the_pieces_apart_and_in_order():
-    pieces = compression.pieces()
+    pieces = principal_components.pieces()
     assert [int(piece.sum()) for piece in pieces] == [91, 140, 220]
     assert np.all(sum(piece.astype(int) for piece in pieces) == 1)
-    again = compression.piecewise(SPECTRA, 2)
+    again = principal_components.piecewise(SPECTRA, 2)
     for piece in pieces:
-        assert np.array_equal(again[:, piece], compression.reconstructed(SPECTRA[:, piece], 2))
-    whole = compression.reconstructed(SPECTRA, 2)
+        assert np.array_equal(
+            again[:, piece], principal_components.reconstructed(SPECTRA[:, piece], 2)
+        )
+    whole = principal_components.reconstructed(SPECTRA, 2)
     assert np.linalg.norm(SPECTRA - again) <= np.linalg.norm(SPECTRA - whole)
 
 
@@ -113,7 +125,7 @@ def test_each_material_is_removed_and_nothing_else():
     assert bloodless.oxygenated_blood == start.oxygenated_blood
     assert not sensitivity.without(start, "melanin").melanin.any()
     dry = sensitivity.without(start, "water")
-    assert [getattr(dry, f"{layer}_water") for layer in compression.WATERY] == [0.0] * 4
+    assert [getattr(dry, f"{layer}_water") for layer in specimen_database.WATERY] == [0.0] * 4
     assert dry.corneum_lipids == start.corneum_lipids
 
 
@@ -186,7 +198,7 @@ def test_compression_and_sensitivity_draw_all_their_figures(tmp_path):
     shapes = np.abs(np.cos(np.outer(np.arange(4.0), np.linspace(0.0, 3.0, RANGE.size))))
     spectra = {
         name: Curve(RANGE, 0.2 * random.random(4) @ shapes, np.zeros(RANGE.size), 0)
-        for name in compression.database()
+        for name in specimen_database.database()
     }
     rows = compression.draw(spectra, tmp_path)
     exact = [row for row in rows if "8 components, maximum RMSE" in row.what]

@@ -11,9 +11,21 @@ from matplotlib.image import imread
 
 import blender_addon
 from examples.demo import render, scene
-from examples.figures import renders, scenes, shots
+from examples.figures import (
+    pixel_readings,
+    render_claims,
+    render_results,
+    render_sheet,
+    renders,
+    scenes,
+    shots,
+    stages,
+    sun_fields,
+)
 from examples.figures.light import Effort
-from examples.figures.renders import Panel, Result
+from examples.figures.render_results import Result
+from examples.figures.render_sheet import Panel
+from hylios.errors import InputError
 from hylios.lab.colour import lab
 from hylios.skin.specimen import SPECIMENS
 from hylios.tanning import PIGMENTATIONS
@@ -66,7 +78,7 @@ def test_the_skins_are_those_of_the_captions():
 def test_the_skin_between_is_darker_than_the_light_and_lighter_than_the_dark():
     untanned = np.array([*PIGMENTATIONS["low"].steady_state(), 1.0])
     skins = [shots.skins()[name] for name in ("low", "intermediate", "high")]
-    low, between, high = (lab(renders.colour(each, untanned))[0] for each in skins)
+    low, between, high = (lab(render_results.colour(each, untanned))[0] for each in skins)
     assert high + 10.0 < between < low - 5.0
 
 
@@ -81,32 +93,32 @@ def test_every_shot_has_its_table_and_day():
 def test_patches_are_rounded_squares_one_over_the_other():
     side = np.linspace(-0.12, 0.12, 961)
     across, up = (each.ravel() for each in np.meshgrid(side, side))
-    inside = scenes.square_patches(across, up) > 0
+    inside = sun_fields.square_patches(across, up) > 0
     area = inside.sum() * (side[1] - side[0]) ** 2
-    rounded = (4.0 - np.pi) * scenes.PATCH_CORNER**2
-    assert area == pytest.approx(3 * (4.0 * scenes.PATCH_HALF**2 - rounded), rel=0.01)
-    heights = np.array(scenes.PATCH_HEIGHTS)
-    assert np.array_equal(scenes.nearest_patch(heights), [0, 1, 2])
+    rounded = (4.0 - np.pi) * sun_fields.PATCH_CORNER**2
+    assert area == pytest.approx(3 * (4.0 * sun_fields.PATCH_HALF**2 - rounded), rel=0.01)
+    heights = np.array(sun_fields.PATCH_HEIGHTS)
+    assert np.array_equal(sun_fields.nearest_patch(heights), [0, 1, 2])
     assert np.allclose(
-        scenes.square_patches(np.zeros(3), heights), scenes.PATCH_HALF
+        sun_fields.square_patches(np.zeros(3), heights), sun_fields.PATCH_HALF
     )  # a distance: how far the centre is from the edge
 
 
 def test_the_painted_sun_has_a_disk_and_twelve_rays():
     angle = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
-    middle = 0.5 * (scenes.RAY_FROM + scenes.RAY_TO)
-    on_rays = scenes.sun_sign(middle * np.cos(angle), middle * np.sin(angle))
-    assert np.allclose(on_rays, -0.5 * scenes.RAY_WIDTH)
+    middle = 0.5 * (sun_fields.RAY_FROM + sun_fields.RAY_TO)
+    on_rays = sun_fields.sun_sign(middle * np.cos(angle), middle * np.sin(angle))
+    assert np.allclose(on_rays, -0.5 * sun_fields.RAY_WIDTH)
     turned = angle + np.pi / 12
-    assert np.all(scenes.sun_sign(middle * np.cos(turned), middle * np.sin(turned)) > 0)
-    assert scenes.sun_sign(np.zeros(1), np.zeros(1))[0] == pytest.approx(-scenes.SUN_RADIUS)
+    assert np.all(sun_fields.sun_sign(middle * np.cos(turned), middle * np.sin(turned)) > 0)
+    assert sun_fields.sun_sign(np.zeros(1), np.zeros(1))[0] == pytest.approx(-sun_fields.SUN_RADIUS)
 
 
 def test_sun_and_shade_stay_on_their_side_of_the_body():
-    place = scenes.Place((0.0, 0.0, 1.2))
+    place = sun_fields.Place((0.0, 0.0, 1.2))
     points = np.array([[0.0, 0.1, 1.2], [0.0, -0.1, 1.2]])
-    assert list(scenes.patches_at(place)(points) > 0) == [True, False]
-    assert list(scenes.sunscreen_at(place)(points) > 0) == [False, True]
+    assert list(sun_fields.patches_at(place)(points) > 0) == [True, False]
+    assert list(sun_fields.sunscreen_at(place)(points) > 0) == [False, True]
 
 
 CAMERA = np.array([0.0, 1.0, 0.0])
@@ -122,37 +134,39 @@ def flat_light(scattered):
 
 
 def half_stage(centre):
-    subject = scene.Subject("Flat", None, 0, scenes.half, (0.0, 0.0, 0.0), 0.2, 0.0)
-    return scenes.Stage(subject, (), scenes.whole, 1, centre, 0.1)
+    subject = scene.Subject("Flat", None, 0, sun_fields.half, (0.0, 0.0, 0.0), 0.2, 0.0)
+    return stages.Stage(subject, (), sun_fields.whole, 1, centre, 0.1)
 
 
 def test_a_colour_is_read_as_a_share_of_white_away_from_the_edge():
     white = flat_light(np.full((40, 40, 3), 0.8))
     colours = np.where(white.position[..., :1] > 0, [0.4, 0.2, 0.1], [0.6, 0.5, 0.4])
-    edge = np.abs(white.position[..., :1]) < 0.5 * scenes.CLEAR_OF_EDGE
+    edge = np.abs(white.position[..., :1]) < 0.5 * pixel_readings.CLEAR_OF_EDGE
     light = flat_light(0.8 * np.where(edge, 9.0, colours))
     stage = half_stage((0.0, 0.0, 0.0))
-    distance = scenes.sun_distance(white, stage, CAMERA)
+    distance = pixel_readings.sun_distance(white, stage, CAMERA)
     assert np.nanmax(np.abs(distance - white.position[..., 0])) < 1e-9
-    where = scenes.regions(white, distance, stage)
-    found = scenes.readings(light, white, where)
+    where = pixel_readings.regions(white, distance, stage)
+    found = pixel_readings.readings(light, white, where)
     assert np.allclose(found, [[0.4, 0.2, 0.1], [0.6, 0.5, 0.4]])
-    shone = scenes.shine(scenes.Taken(light.scattered + 0.25, light), where)
+    shone = pixel_readings.shine(pixel_readings.Taken(light.scattered + 0.25, light), where)
     assert np.allclose(shone, 0.25)
 
 
 def test_skin_that_turns_away_is_not_read():
     white = flat_light(np.full((40, 40, 3), 0.8))
     beside = np.array([1.0, 0.5, 0.0])  # 63 degrees from the normal
-    assert np.all(np.isnan(scenes.sun_distance(white, half_stage((0.0, 0.0, 0.0)), beside)[:, 0]))
+    assert np.all(
+        np.isnan(pixel_readings.sun_distance(white, half_stage((0.0, 0.0, 0.0)), beside)[:, 0])
+    )
 
 
 def test_nothing_is_read_where_nothing_is_seen():
     white = flat_light(np.full((40, 40, 3), 0.8))
     stage = half_stage((0.0, 5.0, 0.0))
-    where = scenes.regions(white, scenes.sun_distance(white, stage, CAMERA), stage)
+    where = pixel_readings.regions(white, pixel_readings.sun_distance(white, stage, CAMERA), stage)
     assert not np.any(where)
-    assert np.all(np.isnan(scenes.readings(white, white, where)))
+    assert np.all(np.isnan(pixel_readings.readings(white, white, where)))
 
 
 @pytest.fixture(scope="module")
@@ -167,7 +181,7 @@ def test_three_schedules_on_one_object_are_three_materials(table):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     blender_addon.register()
     try:
-        obj = scenes.built(scenes.stages(None)["patches"])
+        obj = stages.built(stages.stages(None)["patches"])
         scenes.tan(obj, table, shots.SCHEDULES)
         names = [material.name for material in obj.data.materials]
         assert names == ["Skin Tan Suzanne", "Skin Tan Suzanne 1", "Skin Tan Suzanne 2"]
@@ -190,9 +204,9 @@ def test_three_schedules_on_one_object_are_three_materials(table):
 def test_what_is_said_of_patches_follows_the_readings():
     days = (0, *shots.CLOSE_DAYS, 45)
     tanned = [seen(f"6.24 day {day}", [61.0, 58.0, 55.0, 65.0]) for day in days]
-    assert renders.schedules(tanned)[1][0].met
+    assert render_claims.schedules(tanned)[1][0].met
     crossed = [*tanned[:-1], seen("6.24 day 45", [61.0, 58.0, 59.0, 65.0])]
-    assert not renders.schedules(crossed)[1][0].met
+    assert not render_claims.schedules(crossed)[1][0].met
 
 
 def test_what_is_said_of_three_skins_follows_the_readings():
@@ -201,13 +215,15 @@ def test_what_is_said_of_three_skins_follows_the_readings():
         seen(f"6.25 {name}", [60.0 - step, 55.0 - step, 50.0 - step, 60.2])
         for name, step in zip(names, (9.0, 5.0, 0.0), strict=True)
     ]
-    assert [row.met for row in renders.plain(falling)[1]] == [True, True, True]
-    assert [row.met for row in renders.plain(falling[::-1])[1]][0] is True  # by name, not place
+    assert [row.met for row in render_claims.plain(falling)[1]] == [True, True, True]
+    assert [row.met for row in render_claims.plain(falling[::-1])[1]][
+        0
+    ] is True  # by name, not place
     rising = [
         seen(f"6.26 {name}", [60.0 - step, 55.0 - step, 50.0 - step, 60.2])
         for name, step in zip(names, (0.0, 5.0, 9.0), strict=True)
     ]
-    assert renders.matched(rising)[1][0].met
+    assert render_claims.matched(rising)[1][0].met
 
 
 def test_what_is_said_of_sunscreen_and_face_follows_the_readings():
@@ -215,16 +231,16 @@ def test_what_is_said_of_sunscreen_and_face_follows_the_readings():
         seen(f"6.27 day {day}", [dark, 65.0])
         for day, dark in zip(shots.AIRPORT_DAYS, (65.0, 50.0, 40.0), strict=True)
     ]
-    assert renders.strong(days)[1][0].met
-    assert not renders.strong([*days[:2], seen("6.27 day 15", [55.0, 65.0])])[1][0].met
+    assert render_claims.strong(days)[1][0].met
+    assert not render_claims.strong([*days[:2], seen("6.27 day 15", [55.0, 65.0])])[1][0].met
     faces = [
         seen(f"6.28 {light} day {day}", [60.0, 65.0], shine=(0.2, 0.5))
         for light in ("visible", "UV")
         for day in shots.FACE_DAYS
     ]
-    assert renders.face(faces)[1][0].met
-    assert renders.mild_beside_strong(days, faces).met
-    assert not renders.mild_beside_strong(faces, days).met
+    assert render_claims.face(faces)[1][0].met
+    assert render_claims.mild_beside_strong(days, faces).met
+    assert not render_claims.mild_beside_strong(faces, days).met
 
 
 def test_what_is_said_of_a_month_follows_the_readings():
@@ -237,15 +253,15 @@ def test_what_is_said_of_a_month_follows_the_readings():
             for day, value in zip(days, change, strict=True)
         ]
 
-    assert [row.met for row in renders.month(month(9, 24.0))[1]] == [True, True]
-    assert [row.met for row in renders.month(month(25, 24.0))[1]] == [False, False]
+    assert [row.met for row in render_claims.month(month(9, 24.0))[1]] == [True, True]
+    assert [row.met for row in render_claims.month(month(25, 24.0))[1]] == [False, False]
 
 
 def test_a_sheet_holds_every_picture_pixel_by_pixel(tmp_path):
     red, blue = np.zeros((30, 20, 3)), np.zeros((40, 25, 3))
     red[..., 0], blue[..., 2] = 1.0, 1.0
     panels = [[Panel(red, "a"), Panel(blue, "b\nc", (0.2, 0.8, 0.2, 0.8))]]
-    renders.sheet("Two", panels, tmp_path / "two.png")
+    render_sheet.sheet("Two", panels, tmp_path / "two.png")
     drawn = imread(tmp_path / "two.png")[..., :3]
     assert np.all(drawn == red[0, 0], axis=-1).sum() == 30 * 20
     assert 0 < np.all(drawn == blue[0, 0], axis=-1).sum() < 40 * 25  # all but the frame
@@ -263,14 +279,14 @@ def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
     assert visible.subject == "Suzanne"
     assert visible.picture.shape == uv.picture.shape == (43, 32, 3)
     assert visible.exact is not None and uv.exact is None
-    assert np.abs(lab(visible.readings) - lab(visible.predicted))[:, 0].max() < renders.NEAR
+    assert np.abs(lab(visible.readings) - lab(visible.predicted))[:, 0].max() < render_claims.NEAR
     assert uv.readings[0, 0] < uv.readings[1, 0]
     assert np.ptp(uv.readings, axis=1).max() < 1e-6  # grey
 
 
 def test_blender_that_fails_is_told_in_a_sentence(tmp_path):
     wanted = shots.named(["6.27 day 0"])  # whose table is not there
-    with pytest.raises(renders.InputError, match="could not render the figures .status 2."):
+    with pytest.raises(InputError, match="could not render the figures .status 2."):
         renders.run_blender(wanted, tmp_path, STAND_IN, lambda _: None)
 
 

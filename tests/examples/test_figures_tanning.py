@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from examples.figures import __main__ as program
-from examples.figures import tanning, tanning_claims, tans
+from examples.figures import dose_responses, dose_schedules, tanning_claims, tans
 from examples.figures.light import Effort
 from hylios.adding import spectrum
 from hylios.lab.colour import lab, linear_rec709
@@ -21,7 +21,7 @@ def quiet(size):
 
 @pytest.fixture(scope="module")
 def adding():
-    return tanning.photoaddition()
+    return dose_responses.photoaddition()
 
 
 @pytest.fixture(scope="module")
@@ -36,8 +36,8 @@ def gains():
 def test_every_plot_of_tanning_has_one_owner():
     named = [name for group in program.GROUPS for name in group.FIGURES]
     assert len(named) == len(set(named))
-    assert program.chosen(["6.21", "6.23"]) == [tanning]
-    assert program.chosen(["B"]) == [tanning]
+    assert program.chosen(["6.21", "6.23"]) == [dose_schedules, dose_responses]
+    assert program.chosen(["B"]) == [dose_responses]
     assert program.chosen(["tanning"]) == [tanning_claims]
 
 
@@ -80,14 +80,14 @@ def test_eight_wavelengths_give_the_lightness_of_a_spectrum():
 
 def test_small_doses_add_to_what_a_large_one_does(adding):
     """Each adds little, all of them within 2 % of the large one (photoaddition)."""
-    small, alone, large = (tanning.rise(adding[name]) for name in ("small", "one small", "large"))
+    small, alone, large = (tans.rise(adding[name]) for name in ("small", "one small", "large"))
     assert 0.0 < alone < 0.25 * large
     assert small / large == pytest.approx(1.0, abs=0.02)
 
 
 def test_doses_below_the_minimal_one_add_too(adding):
-    assert tanning.rise(adding["one half"]) < tanning.TINY
-    assert tanning.rise(adding["halves"]) > 0.9 * tanning.rise(adding["large"])
+    assert tans.rise(adding["one half"]) < dose_responses.TINY
+    assert tans.rise(adding["halves"]) > 0.9 * tans.rise(adding["large"])
 
 
 def test_a_series_reaches_the_threshold_by_the_sum_of_what_is_retained():
@@ -97,20 +97,21 @@ def test_a_series_reaches_the_threshold_by_the_sum_of_what_is_retained():
         energy = 1.0
         for hours in between:
             energy = 1.0 + energy * 0.98**hours
-        share = 1.0 / tanning.times_smaller(count)
+        share = 1.0 / dose_responses.times_smaller(count)
         assert share - 0.01 < 1.0 / energy <= share + 1e-9
 
 
 def test_one_minimal_dose_adds_ten_percent_by_day_7():
     for name, expected in zip(SKINS, (1.098, 1.097, 1.096), strict=True):
-        states = tanning.one_minimal_dose(tans.SKINS[name])
+        states = dose_responses.one_minimal_dose(tans.SKINS[name])
         assert states.total[7 * 24] == pytest.approx(expected, abs=5e-4)
 
 
 def test_melanin_moves_from_the_lower_to_the_middle_layer_and_more_in_darker_skin():
     """The abstract of Tadokoro et al. 2005."""
     moved = [
-        tanning.shares_moved(tanning.one_minimal_dose(skin), 7 * 24) for skin in tans.SKINS.values()
+        dose_responses.shares_moved(dose_responses.one_minimal_dose(skin), 7 * 24)
+        for skin in tans.SKINS.values()
     ]
     assert np.allclose(np.sum(moved, axis=1), 0.0, atol=1e-12)
     assert all(change[0] < -0.05 for change in moved)
@@ -121,7 +122,7 @@ def test_more_doses_of_a_schedule_beyond_enough_hardly_tan_more():
     """42 SED as 29 SED, 19 SED less (the abstract of Miller et al. 2008)."""
     skin = tans.MILLER_SKIN
     most, many, few = (
-        tanning.rise(tans.history(skin, each, tanning.MILLER_DAYS))
+        tans.rise(tans.history(skin, each, dose_schedules.MILLER_DAYS))
         for each in tans.SCHEDULES.values()
     )
     assert most > many > few > 0.0
@@ -129,8 +130,8 @@ def test_more_doses_of_a_schedule_beyond_enough_hardly_tan_more():
 
 
 def test_thickness_follows_the_dose_and_returns():
-    grown = tanning.thickening()
-    peaks = [grown[name].thickness.max() for name in tanning.THICKENING]
+    grown = dose_responses.thickening()
+    peaks = [grown[name].thickness.max() for name in dose_responses.THICKENING]
     assert 1.0 < peaks[0] < peaks[1] < peaks[2] < 1.25  # table 6.6: 1 + .025 / .1 at most
     for states in grown.values():
         assert states.thickness[-1] == pytest.approx(1.0, abs=0.002)
@@ -139,7 +140,7 @@ def test_thickness_follows_the_dose_and_returns():
 def test_the_lightness_of_a_tan_falls_and_comes_back():
     days = np.array([0.0, 20.0, 60.0])
     seen = []
-    each = tanning.tan(tans.MILLER_SKIN, tans.SCHEDULES["29 SED"], days, seen.append)
+    each = dose_schedules.tan(tans.MILLER_SKIN, tans.SCHEDULES["29 SED"], days, seen.append)
     assert each.lightness[1] < each.lightness[2] - 5.0 < each.lightness[0] - 5.0
     assert sum(seen) == 3 * tans.COLOUR_WAVELENGTHS
 
@@ -217,9 +218,9 @@ def test_reflectance_converges_in_the_ultraviolet_when_melanin_grows():
 
 
 @pytest.mark.slow
-def test_both_groups_leave_pictures_and_rows(tmp_path):
+def test_all_groups_of_tans_leave_pictures_and_rows(tmp_path):
     effort = Effort(rays=1)
-    groups = (tanning, tanning_claims)
+    groups = (dose_schedules, dose_responses, tanning_claims)
     results = program.computed({group: group.tasks(effort) for group in groups})
     rows = [row for group in groups for row in group.draw(results[group], tmp_path)]
     made = {path.name for path in tmp_path.iterdir()}

@@ -1,36 +1,29 @@
-"""Figures 6.21, 6.23, B.1 and B.2: what doses of ultraviolet light do to melanin and thickness.
+"""Figures 6.21, B.1 and B.2: what single and few doses do to melanin and thickness.
 
-The schedules behind them are only plotted in the thesis, and the measurements beside them could
-not be had; what stands for the former is ASSUMED (`tans.py` and the constants here).
+The doses are only plotted in the thesis, and the measurements beside them could not be had; what
+stands for the former is ASSUMED (`tans.py` and the constants here).
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from matplotlib.axes import Axes
 
-from examples.figures.drawing import COLOURS, sheet
-from examples.figures.light import Effort, Task, Tick
+from examples.figures.drawing import COLOURS, plot_layers, sheet
+from examples.figures.light import Effort, Task
 from examples.figures.report import Row, claim
 from examples.figures.tans import (
-    COLOUR_WAVELENGTHS,
-    MILLER_DOSES,
     MILLER_SKIN,
-    SCHEDULES,
     SKINS,
     Schedule,
-    colour,
     history,
-    rising,
+    rise,
 )
-from hylios.lab.colour import lab
 from hylios.lab.pictures import write_figure
 from hylios.skin import Skin
 from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory, simulate
 
-FIGURES = ("6.21", "6.23", "B.1", "B.2")
+FIGURES = ("6.21", "B.1", "B.2")
 
 SMALL_DOSES, SMALL_DOSE = 4, 3.0
 """Number of doses on successive days and SED of each, for figure 6.21. ASSUMED."""
@@ -40,11 +33,8 @@ SERIES_DAYS, MEASURED_SERIES = 21.0, {6: 2.0, 12: 3.0}
 tan at last, by number of doses: measured in 24 people (Ravnbak et al., Acta
 Dermato-Venereologica, doi 10.2340/00015555-0431). ASSUMED: evenly over the three weeks."""
 
-ADDING_DAYS, MILLER_DAYS, LAYER_DAYS, THICKENING_DAYS = 40, 60, 14, 21
-"""Days that figures 6.21, 6.23, B.1 and B.2 span."""
-
-SEEN_EVERY = 1
-"""Days between two colours of figure 6.23."""
+ADDING_DAYS, LAYER_DAYS, THICKENING_DAYS = 40, 14, 21
+"""Days that figures 6.21, B.1 and B.2 span."""
 
 THICKENING = {"1 MED": 1.0, "2 MED": 2.0, "4 MED": 4.0}
 """Single doses of figure B.2 in MED. ASSUMED: what Lopez et al. gave could not be established."""
@@ -59,70 +49,21 @@ increase of 25 %)."""
 TINY = 1e-6
 """Relative melanin more than this is a tan; less is rounding."""
 
-LAYERS = {"stratum basale": "-", "stratum spinosum": "--", "stratum granulosum": "-."}
-"""Line of each layer, as in the thesis."""
-
-
-@dataclass(frozen=True)
-class Tan:
-    """What a schedule makes of a skin.
-
-    Attributes
-    ----------
-    schedule : Schedule
-    history : TanningHistory
-        Every hour.
-    days, lightness : (D,) arrays
-        Days at which the light model was asked, and L* under D65.
-    """
-
-    schedule: Schedule
-    history: TanningHistory
-    days: np.ndarray
-    lightness: np.ndarray
-
-
-def tan(skin: Skin, schedule: Schedule, days: np.ndarray, tick: Tick) -> Tan:
-    """Simulate a schedule up to the last day and ask the light model on some."""
-    states = history(skin, schedule, days[-1])
-    lightness = np.empty(days.size)
-    for place, hour in enumerate(np.round(24 * days).astype(int)):
-        lightness[place] = lab(colour(skin, states.states[hour]))[0]
-        tick(COLOUR_WAVELENGTHS)
-    return Tan(schedule, states, days, lightness)
-
 
 def tasks(effort: Effort) -> dict[str, Task]:
-    """The three schedules of figure 6.23, and the same sums in doses that rise from 1 MED."""
-    often = np.arange(0.0, MILLER_DAYS + 1.0, SEEN_EVERY)
-    seldom = np.array([0.0, 31.0])  # the experiment looked on day 31
-    work = {}
-    for name, schedule in SCHEDULES.items():
-        ramp = rising(*MILLER_DOSES[name], MILLER_SKIN.med)
-        work[name] = _task(schedule, often)
-        work[f"{name} rising"] = _task(ramp, seldom)
-    return work
+    """None: the tanning model takes no time beside the light model."""
+    return {}
 
 
-def _task(schedule: Schedule, days: np.ndarray) -> Task:
-    return Task(lambda tick: tan(MILLER_SKIN, schedule, days, tick), COLOUR_WAVELENGTHS * days.size)
-
-
-def draw(results: Mapping[str, Tan], folder: Path) -> list[Row]:
+def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     """Draw all figures and compare what the thesis and abstracts say of them."""
     adding = photoaddition()
     single = {name: one_minimal_dose(skin) for name, skin in SKINS.items()}
     grown = thickening()
     draw_photoaddition(adding, folder / "6.21.png")
-    draw_schedules({name: results[name] for name in SCHEDULES}, folder / "6.23.png")
     draw_layers(single, folder / "B.1.png")
     draw_thickening(grown, folder / "B.2.png")
-    return [
-        *photoaddition_rows(adding),
-        *schedule_rows(results),
-        *layer_rows(single),
-        *thickening_rows(grown),
-    ]
+    return [*photoaddition_rows(adding), *layer_rows(single), *thickening_rows(grown)]
 
 
 def photoaddition() -> dict[str, TanningHistory]:
@@ -186,58 +127,11 @@ def draw_photoaddition(adding: Mapping[str, TanningHistory], path: Path) -> None
     write_figure(figure, path)
 
 
-def _doses(axes: Axes, schedule: Schedule, hue: str) -> None:
-    axes.bar([day for day, _ in schedule], [dose for _, dose in schedule], 0.6, color=hue)
-
-
-def draw_schedules(tans: Mapping[str, Tan], path: Path) -> None:
-    """Figure 6.23: doses, layers, total melanin, thickness and L* of each schedule."""
-    figure, axes = sheet(17.0, 8.6, columns=5, rows=len(tans), sharex=True, sharey="col")
-    for row, (name, each) in zip(axes, tans.items(), strict=True):
-        days = each.history.hours / 24
-        _doses(row[0], each.schedule, "grey")
-        row[0].axhline(MILLER_SKIN.mmd, color=COLOURS[1], ls=":", label="MMD")
-        row[0].axhline(MILLER_SKIN.med, color=COLOURS[4], ls=":", label="MED")
-        row[0].set_ylabel(f"{name} in {len(each.schedule)} doses\ndose (SED)")
-        _layers(row[1], each.history)
-        row[2].plot(days, each.history.total, color="black")
-        row[3].plot(days, each.history.thickness, color="black")
-        row[4].plot(each.days, each.lightness, color="black", marker=".", markersize=4)
-        for place in row:
-            place.grid(alpha=0.25)
-    titles = (
-        "doses (ASSUMED)",
-        "melanin of the layers",
-        "melanin in all",
-        "thickness",
-        "L*, D65 (measured: not to be had)",
-    )
-    for place, title in zip(axes[0], titles, strict=True):
-        place.set_title(title, fontsize=10)
-    for place in axes[-1]:
-        place.set(xlabel="day", xlim=(-1.0, MILLER_DAYS))
-    axes[0, 0].legend(fontsize=8, loc="upper right")
-    axes[0, 1].legend(fontsize=8)
-    figure.suptitle(
-        "6.23  Three schedules on S3 with the low set, MMD 2.89 and MED 1.7 SED; melanin relative "
-        "to all melanin at the start.\nSums of 42, 29 and 19 SED are those of Miller et al. 2008; "
-        "equal doses on two days a week, and eight of them for 19 SED, are ASSUMED",
-        fontsize=10,
-    )
-    write_figure(figure, path)
-
-
-def _layers(axes: Axes, states: TanningHistory) -> None:
-    for number, (layer, line) in enumerate(LAYERS.items()):
-        content = states.melanin[:, number]
-        axes.plot(states.hours / 24, content, color=COLOURS[number + 1], ls=line, label=layer)
-
-
 def draw_layers(single: Mapping[str, TanningHistory], path: Path) -> None:
     """Figure B.1: layers and total of the three sets after 1 MMD."""
     figure, axes = sheet(12.0, 6.4, columns=3, rows=2, sharex=True, sharey="row")
     for column, (name, states) in zip(axes.T, single.items(), strict=True):
-        _layers(column[0], states)
+        plot_layers(column[0], states)
         column[0].set_title(f"{name} ({SKINS[name].mmd:.2f} SED)", fontsize=10)
         column[1].plot(states.hours / 24, 100.0 * (states.total - 1.0), color="black")
         column[1].plot(7.0, 10.0, "o", color=COLOURS[1], label="about 10 % on day 7 (printed)")
@@ -286,11 +180,6 @@ def measured_growth() -> float:
     return MEASURED_THICKNESS["exposed"] / MEASURED_THICKNESS["not exposed"]
 
 
-def rise(states: TanningHistory) -> float:
-    """Largest increase of all melanin, relative to the start."""
-    return float(states.total.max() - 1.0)
-
-
 def times_smaller(count: int) -> float:
     """How many times smaller than the MMD each of so many doses may be and still tan at last.
 
@@ -333,39 +222,6 @@ def photoaddition_rows(adding: Mapping[str, TanningHistory]) -> list[Row]:
             ", ".join(f"{times_smaller(count):.2f}" for count in MEASURED_SERIES),
         ),
     ]
-
-
-def schedule_rows(results: Mapping[str, Tan]) -> list[Row]:
-    """What the schedules give, with equal doses and with doses that rise."""
-    rows = []
-    for kind, label in (("", "equal doses"), (" rising", "doses rising from 1 MED")):
-        tans = [results[f"{name}{kind}"] for name in SCHEDULES]
-        peaks = [rise(each.history) for each in tans]
-        darker = [each.lightness[0] - each.lightness.min() for each in tans]
-        comparable = abs(peaks[0] - peaks[1]) < 0.5 * abs(peaks[1] - peaks[2])
-        when = "at its darkest" if not kind else "on day 31"
-        rows.append(
-            claim(
-                "6.23",
-                f"{', '.join(SCHEDULES)}, {label} (ASSUMED): peak of melanin, fall of L* {when}; "
-                "aim: 42 and 29 SED less than half as far apart as 29 and 19",
-                "42 and 29 SED comparable, 19 SED moderate (Miller et al. 2008)",
-                ", ".join(f"{value:+.0%}" for value in peaks)
-                + "; "
-                + ", ".join(f"{value:.1f}" for value in darker),
-                comparable,
-            )
-        )
-    thickest = [float(results[name].history.thickness.max()) for name in SCHEDULES]
-    rows.append(
-        Row(
-            "6.23",
-            "L* beside the measured one; thickest",
-            "good agreement; plotted",
-            "measurements not to be had; " + ", ".join(f"{value:.3f}" for value in thickest),
-        )
-    )
-    return rows
 
 
 def layer_rows(single: Mapping[str, TanningHistory]) -> list[Row]:

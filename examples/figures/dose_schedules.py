@@ -1,0 +1,164 @@
+"""Figure 6.23: what weeks of doses of ultraviolet light do to melanin, thickness and colour.
+
+The schedules are only plotted in the thesis, and the measurements beside them could not be had;
+what stands for the former is ASSUMED (`tans.py`).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from examples.figures.drawing import COLOURS, plot_layers, sheet
+from examples.figures.light import Effort, Task, Tick
+from examples.figures.report import Row, claim
+from examples.figures.tans import (
+    COLOUR_WAVELENGTHS,
+    MILLER_DOSES,
+    MILLER_SKIN,
+    SCHEDULES,
+    Schedule,
+    colour,
+    history,
+    rise,
+    rising,
+)
+from hylios.lab.colour import lab
+from hylios.lab.pictures import write_figure
+from hylios.skin import Skin
+from hylios.tanning import TanningHistory
+
+FIGURES = ("6.23",)
+
+MILLER_DAYS = 60
+"""Days that the figure spans."""
+
+SEEN_EVERY = 1
+"""Days between two colours of the figure."""
+
+
+@dataclass(frozen=True)
+class Tan:
+    """What a schedule makes of a skin.
+
+    Attributes
+    ----------
+    schedule : Schedule
+    history : TanningHistory
+        Every hour.
+    days, lightness : (D,) arrays
+        Days at which the light model was asked, and L* under D65.
+    """
+
+    schedule: Schedule
+    history: TanningHistory
+    days: np.ndarray
+    lightness: np.ndarray
+
+
+def tan(skin: Skin, schedule: Schedule, days: np.ndarray, tick: Tick) -> Tan:
+    """Simulate a schedule up to the last day and ask the light model on some."""
+    states = history(skin, schedule, days[-1])
+    lightness = np.empty(days.size)
+    for place, hour in enumerate(np.round(24 * days).astype(int)):
+        lightness[place] = lab(colour(skin, states.states[hour]))[0]
+        tick(COLOUR_WAVELENGTHS)
+    return Tan(schedule, states, days, lightness)
+
+
+def tasks(effort: Effort) -> dict[str, Task]:
+    """The three schedules of figure 6.23, and the same sums in doses that rise from 1 MED."""
+    often = np.arange(0.0, MILLER_DAYS + 1.0, SEEN_EVERY)
+    seldom = np.array([0.0, 31.0])  # the experiment looked on day 31
+    work = {}
+    for name, schedule in SCHEDULES.items():
+        ramp = rising(*MILLER_DOSES[name], MILLER_SKIN.med)
+        work[name] = _task(schedule, often)
+        work[f"{name} rising"] = _task(ramp, seldom)
+    return work
+
+
+def _task(schedule: Schedule, days: np.ndarray) -> Task:
+    return Task(lambda tick: tan(MILLER_SKIN, schedule, days, tick), COLOUR_WAVELENGTHS * days.size)
+
+
+def draw(results: Mapping[str, Tan], folder: Path) -> list[Row]:
+    """Draw the figure and compare what an abstract says of it."""
+    draw_schedules({name: results[name] for name in SCHEDULES}, folder / "6.23.png")
+    return schedule_rows(results)
+
+
+def _doses(axes: Axes, schedule: Schedule, hue: str) -> None:
+    axes.bar([day for day, _ in schedule], [dose for _, dose in schedule], 0.6, color=hue)
+
+
+def draw_schedules(tans: Mapping[str, Tan], path: Path) -> None:
+    """Figure 6.23: doses, layers, total melanin, thickness and L* of each schedule."""
+    figure, axes = sheet(17.0, 8.6, columns=5, rows=len(tans), sharex=True, sharey="col")
+    for row, (name, each) in zip(axes, tans.items(), strict=True):
+        days = each.history.hours / 24
+        _doses(row[0], each.schedule, "grey")
+        row[0].axhline(MILLER_SKIN.mmd, color=COLOURS[1], ls=":", label="MMD")
+        row[0].axhline(MILLER_SKIN.med, color=COLOURS[4], ls=":", label="MED")
+        row[0].set_ylabel(f"{name} in {len(each.schedule)} doses\ndose (SED)")
+        plot_layers(row[1], each.history)
+        row[2].plot(days, each.history.total, color="black")
+        row[3].plot(days, each.history.thickness, color="black")
+        row[4].plot(each.days, each.lightness, color="black", marker=".", markersize=4)
+        for place in row:
+            place.grid(alpha=0.25)
+    titles = (
+        "doses (ASSUMED)",
+        "melanin of the layers",
+        "melanin in all",
+        "thickness",
+        "L*, D65 (measured: not to be had)",
+    )
+    for place, title in zip(axes[0], titles, strict=True):
+        place.set_title(title, fontsize=10)
+    for place in axes[-1]:
+        place.set(xlabel="day", xlim=(-1.0, MILLER_DAYS))
+    axes[0, 0].legend(fontsize=8, loc="upper right")
+    axes[0, 1].legend(fontsize=8)
+    figure.suptitle(
+        "6.23  Three schedules on S3 with the low set, MMD 2.89 and MED 1.7 SED; melanin relative "
+        "to all melanin at the start.\nSums of 42, 29 and 19 SED are those of Miller et al. 2008; "
+        "equal doses on two days a week, and eight of them for 19 SED, are ASSUMED",
+        fontsize=10,
+    )
+    write_figure(figure, path)
+
+
+def schedule_rows(results: Mapping[str, Tan]) -> list[Row]:
+    """What the schedules give, with equal doses and with doses that rise."""
+    rows = []
+    for kind, label in (("", "equal doses"), (" rising", "doses rising from 1 MED")):
+        tans = [results[f"{name}{kind}"] for name in SCHEDULES]
+        peaks = [rise(each.history) for each in tans]
+        darker = [each.lightness[0] - each.lightness.min() for each in tans]
+        comparable = abs(peaks[0] - peaks[1]) < 0.5 * abs(peaks[1] - peaks[2])
+        when = "at its darkest" if not kind else "on day 31"
+        rows.append(
+            claim(
+                "6.23",
+                f"{', '.join(SCHEDULES)}, {label} (ASSUMED): peak of melanin, fall of L* {when}; "
+                "aim: 42 and 29 SED less than half as far apart as 29 and 19",
+                "42 and 29 SED comparable, 19 SED moderate (Miller et al. 2008)",
+                ", ".join(f"{value:+.0%}" for value in peaks)
+                + "; "
+                + ", ".join(f"{value:.1f}" for value in darker),
+                comparable,
+            )
+        )
+    thickest = [float(results[name].history.thickness.max()) for name in SCHEDULES]
+    rows.append(
+        Row(
+            "6.23",
+            "L* beside the measured one; thickest",
+            "good agreement; plotted",
+            "measurements not to be had; " + ", ".join(f"{value:.3f}" for value in thickest),
+        )
+    )
+    return rows

@@ -1,0 +1,283 @@
+"""What the thesis says of figures 6.24 to 6.29, checked on renders."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from examples.figures import report, shots
+from examples.figures.render_results import Result
+from examples.figures.render_sheet import Panel, Panels
+from examples.figures.shots import UV
+from examples.figures.tans import Schedule, history
+from hylios.lab.colour import TINTS, difference, lab, linear_of_srgb, srgb
+
+NEAR = 2.0
+"""How near in L* a render is to come to its table; what the shader's surface keeps out is 1."""
+UV_EXPOSURE = 1.7
+"""How much brighter than the visible pictures those at 365 nm are shown."""
+
+
+def _totals(schedules: Sequence[Schedule]) -> str:
+    totals = [f"{sum(dose for _, dose in schedule):.3g}" for schedule in schedules]
+    return f"{', '.join(totals[:-1])} and {totals[-1]}" if len(totals) > 1 else totals[0]
+
+
+HEADINGS = {
+    "6.24": f"Patches of skin of low pigmentation (MMD {shots.MMD} SED). From the upper: "
+    f"{_totals(shots.SCHEDULES)} SED in equal doses twice a week from day 0 on (assumed)",
+    "6.25": "The same doses on three skins, day 20; upper to lower patch as under the pictures",
+    "6.26": "Doses scaled by 1, 1.4 and 2.4, day 20; upper to lower patch as under the pictures",
+    "6.27": "30 SED on day 0 beside sunscreen; low pigmentation, high tanning ability",
+    "6.28": "30 SED on day 0 on one half of a face; low pigmentation, mild tanning ability",
+    "6.29": "30 SED on day 0 beside a swimsuit; intermediate tanning set, day by day",
+}
+Rows = list[report.Row]
+
+
+def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
+    """How near the renders come to the tables, and those to the light model."""
+    rows = []
+    for figure, results in by_figure.items():
+        visible = [each for each in results if each.exact is not None]
+        off = np.concatenate([lab(each.readings) - lab(each.predicted) for each in visible])[:, 0]
+        apart = np.concatenate([difference(each.predicted, each.exact) for each in visible])
+        rows.append(
+            report.Row(
+                figure,
+                f"L* read from {len(visible)} renders, less the table's",
+                "",
+                f"{np.nanmin(off):+.2f} to {np.nanmax(off):+.2f}; table from the light model "
+                f"without noise: CIEDE2000 up to {apart.max():.2f}",
+                "none but in profile widths",
+                f"within {NEAR:g}",
+                bool(np.nanmax(np.abs(off)) <= NEAR),
+            )
+        )
+        others = sorted({each.subject for each in results if each.subject == "Suzanne"})
+        if others:
+            rows.append(report.Row(figure, "subject", "a woman", "Suzanne stands in for her"))
+    return rows
+
+
+def schedules(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.24."""
+    ordered = sorted(results, key=lambda each: each.shot.day)
+    panels = [
+        Panel(
+            each.picture,
+            f"day {each.shot.day:g}",
+            shots.PATCHES if each.shot.window == shots.WHOLE else None,
+        )
+        for each in ordered
+    ]
+    later = [each for each in ordered if each.shot.day > 0]
+    dark = np.array([each.lightness for each in later])
+    rows = [
+        report.claim(
+            "6.24",
+            "each stronger schedule leaves a darker patch, and all are darker than beside them",
+            "so drawn",
+            "; ".join(
+                f"day {each.shot.day:g}: " + " ".join(f"{value:.1f}" for value in each.lightness)
+                for each in later
+            )
+            + " (L* of upper, middle, lower, beside)",
+            bool(np.all(np.diff(dark[:, [3, 0, 1, 2]], axis=1) < 0.0)),
+        )
+    ]
+    return [panels], rows
+
+
+def plain(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.25."""
+    panels, contrasts = _three_skins(results)
+    weakest = contrasts["high"][0]
+    less = all(
+        np.all(np.diff([contrasts[name][part] for name in shots.SENSITIVITY]) < 0.0)
+        for part in range(3)
+    )
+    return panels, [
+        report.claim(
+            "6.25",
+            "the darker the skin, the less it tans of the same doses, in every patch",
+            "so it is",
+            _contrasts(contrasts),
+            less,
+        ),
+        report.claim(
+            "6.25",
+            "weakest schedule on the darkest skin: no noticeable change",
+            "not noticeable (here: CIEDE2000 below 1)",
+            f"{weakest:.2f}",
+            bool(weakest < 1.0),
+        ),
+        report.claim(
+            "6.25",
+            "the other schedules on the darkest skin (implied)",
+            "noticeable",
+            " and ".join(f"{value:.2f}" for value in contrasts["high"][1:]),
+            bool(np.all(contrasts["high"][1:] >= 1.0)),
+        ),
+    ]
+
+
+def matched(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.26."""
+    panels, contrasts = _three_skins(results)
+    more = all(
+        np.all(np.diff([contrasts[name][part] for name in shots.SENSITIVITY]) > 0.0)
+        for part in range(3)
+    )
+    return panels, [
+        report.claim(
+            "6.26",
+            "the darker the skin, the more noticeable the change, in every patch",
+            "so it is",
+            _contrasts(contrasts),
+            more,
+        )
+    ]
+
+
+def _three_skins(results: Sequence[Result]) -> tuple[Panels, dict[str, np.ndarray]]:
+    panels = []
+    for each in results:
+        name = each.shot.table
+        caption = f"{name} pigmentation\n{_totals(each.shot.schedules)} SED in all"
+        panels.append(Panel(each.picture, caption))
+    return [panels], {each.shot.table: each.contrast for each in results}
+
+
+def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
+    listed = "; ".join(
+        f"{name} " + " ".join(f"{value:.1f}" for value in values)
+        for name, values in contrasts.items()
+    )
+    return f"CIEDE2000 of upper, middle, lower from beside: {listed}"
+
+
+def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.27."""
+    panels = [
+        Panel(each.picture, "day 0, sunscreen on (outlined)", outlined=each.sun_distance)
+        if each.shot.gloss
+        else Panel(each.picture, f"day {each.shot.day:g}")
+        for each in results
+    ]
+    contrasts = {each.shot.day: float(each.contrast[0]) for each in results}
+    return [panels], [
+        report.claim(
+            "6.27",
+            "noticeably darker on day 4, significantly on day 15",
+            "so it is",
+            ", ".join(
+                f"day {day:g}: L* {each.lightness[0]:.1f}, CIEDE2000 {contrasts[day]:.1f} "
+                "from under the sunscreen"
+                for day, each in zip(contrasts, results, strict=True)
+            ),
+            bool(1.0 < contrasts[4] < contrasts[15]),
+        ),
+        _filling(),
+    ]
+
+
+def _filling() -> report.Row:
+    """What so much melanin does to a layer, over the days of the figure."""
+    skin = shots.skins()["strong"]
+    over = history(skin, shots.BEACH, shots.LAST_DAY)
+    cut = any(skin.overfull(state) for state in over.states)
+    return report.Row(
+        "6.27",
+        "most melanin, as a multiple of the untanned skin's",
+        "",
+        f"{over.total.max():.2f}; " + ("cut to fill a layer" if cut else "it fits every layer"),
+    )
+
+
+def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.28."""
+    seen = {each.shot.day: each for each in results if each.shot.table != UV}
+    uv = {each.shot.day: each for each in results if each.shot.table == UV}
+    before, after = shots.FACE_DAYS
+    said = {before: "before, sunscreen on one half", after: f"{after} days after"}
+    panels = [
+        [
+            Panel(seen[day].picture, f"visible\n{said[day]}"),
+            Panel(pseudo_colour(uv[day].picture), f"365 nm\n{said[day]}"),
+        ]
+        for day in (before, after)
+    ]
+    bare, covered = seen[before].shine
+    visible, at_365 = (_luminance(found[after].readings) for found in (seen, uv))
+    return panels, [
+        report.claim(
+            "6.28",
+            "the side under sunscreen is glossier",
+            "so drawn",
+            f"the surface reflects up to {covered:.2f} there, {bare:.2f} beside",
+            bool(covered > bare),
+        ),
+        report.Row(
+            "6.28",
+            f"light out of tanned over covered skin on day {after}",
+            "",
+            f"{visible[0] / visible[1]:.2f} (visible, luminance), {at_365[0] / at_365[1]:.2f} "
+            f"(365 nm); CIEDE2000 {seen[after].contrast[0]:.1f} in the visible",
+        ),
+    ]
+
+
+def mild_beside_strong(back: Sequence[Result], faces: Sequence[Result]) -> report.Row:
+    """Figures 6.27 and 6.28 on day 15."""
+    high, mild = (
+        next(each.contrast[0] for each in results if each.shot.day == 15 and each.shot.table != UV)
+        for results in (back, faces)
+    )
+    return report.claim(
+        "6.28",
+        "tan line on day 15 fainter than with high tanning ability (6.27)",
+        "so it is",
+        f"CIEDE2000 {mild:.1f} and {high:.1f}",
+        bool(mild < high),
+    )
+
+
+def pseudo_colour(picture: np.ndarray) -> np.ndarray:
+    """A grey picture in the tint of ultraviolet swatches, sRGB; brighter by `UV_EXPOSURE`."""
+    return srgb(UV_EXPOSURE * linear_of_srgb(picture) * np.array(TINTS["uv"]))
+
+
+def _luminance(linear: np.ndarray) -> np.ndarray:
+    return linear @ np.array([0.2126, 0.7152, 0.0722])
+
+
+def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
+    """Figure 6.29."""
+    daily = [each for each in results if "small" in each.shot.name]
+    main = [each for each in results if "small" not in each.shot.name]
+    small = [Panel(each.picture, f"day {each.shot.day:g}") for each in daily]
+    weeks = [small[start : start + 10] for start in range(0, len(small), 10)]
+    lightness = np.array([each.lightness[0] for each in daily])
+    days = np.array([each.shot.day for each in daily])
+    darkest, untanned = lightness.min(), daily[0].lightness[1]
+    change = (untanned - lightness) / (untanned - darkest)
+    peak = days[np.argmin(lightness)]
+    broad = days[change > 0.9]
+    return [*weeks, [Panel(each.picture, f"day {each.shot.day:g}") for each in main]], [
+        report.claim(
+            "6.29", "day of the darkest skin", "10", f"{peak:g}", bool(8.0 <= peak <= 12.0)
+        ),
+        report.claim(
+            "6.29",
+            "rapid rise, broad maximum, gradual fading",
+            "so it is",
+            f"half of the largest change in L* ({untanned - darkest:.1f}) by day "
+            f"{days[np.argmax(change > 0.5)]:g}; nine tenths from day {broad[0]:g} to "
+            f"{broad[-1]:g}; on day {days[-1]:g} {change[-1]:.0%} are left",
+            bool(
+                broad[0] < broad[-1] - broad[0]
+                and broad[0] < days[-1] - broad[-1]
+                and change[-1] < 0.75
+            ),
+        ),
+    ]

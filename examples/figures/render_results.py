@@ -1,0 +1,84 @@
+"""A rendered shot with what was read from it and what the table and the model predict."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from examples.figures.shots import UV, Shot
+from examples.figures.tans import history
+from hylios.adding import colours
+from hylios.lab.colour import difference, lab
+from hylios.quadrature import MOST
+from hylios.skin import Skin
+from hylios.table import SkinTable
+
+
+@dataclass(frozen=True)
+class Result:
+    """A shot, and what was read from it; colours are linear Rec.709.
+
+    Attributes
+    ----------
+    picture : (rows, columns, 3) array
+        sRGB, 0 to 1.
+    readings : (parts + 1, 3) array
+        Light out of the skin as a share of a white diffuser's: of each part in the sun, then of
+        covered skin.
+    predicted : (parts + 1, 3) array
+        The same by the table at the tanning state of the day.
+    exact : (parts + 1, 3) array or None
+        The same by the light model without noise; None at 365 nm.
+    shine : (2,) array
+        Light reflected by the surface, mean of the brightest hundredth, in the sun and covered.
+    sun_distance : (rows, columns) array
+        Metres to the edge of what the sun reached, negative beyond it; not a number elsewhere.
+    subject : str
+        Who is in the picture.
+    """
+
+    shot: Shot
+    picture: np.ndarray
+    readings: np.ndarray
+    predicted: np.ndarray
+    exact: np.ndarray | None
+    shine: np.ndarray
+    sun_distance: np.ndarray
+    subject: str
+
+    @property
+    def lightness(self) -> np.ndarray:
+        """L* (parts + 1,) as read."""
+        return lab(self.readings)[:, 0]
+
+    @property
+    def contrast(self) -> np.ndarray:
+        """CIEDE2000 (parts,) between the parts in the sun and covered skin, as read."""
+        return difference(self.readings[:-1], self.readings[-1])
+
+
+def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
+    """What came of a shot, beside what the model says."""
+    states = tanning_states(shot, skin)
+    with np.load(folder / f"{shot.name}.npz") as found:
+        return Result(
+            shot=shot,
+            picture=found["picture"],
+            readings=found["readings"],
+            predicted=table.plane("subsurface_colour", states),
+            exact=None if shot.table == UV else np.array([colour(skin, s) for s in states]),
+            shine=found["shine"],
+            sun_distance=found["sun_distance"],
+            subject=str(found["subject"]),
+        )
+
+
+def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:
+    """States (parts + 1, 4) on the day of a shot: of each schedule, and without sun."""
+    every = (*shot.schedules, ())
+    return np.array([history(skin, each, shot.day).states[-1] for each in every])
+
+
+def colour(skin: Skin, state: np.ndarray) -> np.ndarray:
+    """Colour (3,) of the light out of skin in a tanning state (4,), without noise."""
+    return colours(skin, state[None], count=MOST).subsurface[0]

@@ -87,8 +87,8 @@ class Agreement:
 
 def agreement(pairs: Sequence[Pair]) -> Agreement:
     """Sum up pairs, at least one."""
-    differences = np.array([each.difference for each in pairs])
-    errors = np.array([each.error for each in pairs])
+    differences = np.array([pair.difference for pair in pairs])
+    errors = np.array([pair.error for pair in pairs])
     square, noise = np.mean(differences**2), np.mean(errors**2)
     own = np.sqrt(max(0.0, square - noise))
     largest = np.abs(differences).max()
@@ -98,21 +98,21 @@ def agreement(pairs: Sequence[Pair]) -> Agreement:
 def skins() -> dict[str, Skin]:
     """Those that tan: S1 to S4 and the skin types."""
     types = {name: phototype(name).skin for name in PHOTOTYPES}
-    return {**{name: Skin.of(each) for name, each in SPECIMENS.items()}, **types}
+    return {**{name: Skin.of(specimen) for name, specimen in SPECIMENS.items()}, **types}
 
 
 def specimens(seed: int, tanned: int = TANNED) -> list[tuple[str, str, Specimen]]:
     """Name, state and specimen of S1 to S4, and of tanned states, drawn in turn from all skins."""
-    made = [(name, "", each) for name, each in SPECIMENS.items()]
-    known = list(skins().items())
-    reached = [_tanned_states(each, seed) for _, each in known]
+    drawn = [(name, "", specimen) for name, specimen in SPECIMENS.items()]
+    tanning_skins = list(skins().items())
+    tanned_states = [_tanned_states(skin, seed) for _, skin in tanning_skins]
     random = np.random.default_rng(seed)
     for number in range(tanned):
-        name, each = known[number % len(known)]
-        state = random.choice(reached[number % len(known)])
+        name, skin = tanning_skins[number % len(tanning_skins)]
+        state = random.choice(tanned_states[number % len(tanning_skins)])
         printed = " ".join(f"{value:.6g}" for value in state)
-        made.append((name, printed, each.at(state)))
-    return made
+        drawn.append((name, printed, skin.at(state)))
+    return drawn
 
 
 def _tanned_states(skin: Skin, seed: int) -> np.ndarray:
@@ -153,11 +153,11 @@ def compared(
 
 def written(pairs: Sequence[Pair], path: Path) -> None:
     """Write pairs as CSV."""
-    names = [each.name for each in fields(Pair)]
+    names = [field.name for field in fields(Pair)]
     with written_beside(path) as beside, beside.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, [*names, "difference"])
         writer.writeheader()
-        writer.writerows({**asdict(each), "difference": each.difference} for each in pairs)
+        writer.writerows({**asdict(pair), "difference": pair.difference} for pair in pairs)
 
 
 def read(path: Path) -> list[Pair]:
@@ -171,7 +171,7 @@ def read(path: Path) -> list[Pair]:
     try:
         with path.open(encoding="utf-8", newline="") as file:
             return [
-                Pair(**{each.name: each.type(row[each.name]) for each in fields(Pair)})
+                Pair(**{field.name: field.type(row[field.name]) for field in fields(Pair)})
                 for row in csv.DictReader(file)
             ]
     except (KeyError, TypeError, ValueError) as error:
@@ -182,22 +182,22 @@ def report(pairs: Sequence[Pair]) -> str:
     """Agreement by skin, by wavelength and of all."""
     lines = [f"{'':<12}{'pairs':>6}{'rms':>10}{'noise':>10}{'own rms':>10}{'largest':>10}"]
 
-    def line(what: str, some: Sequence[Pair]) -> Agreement:
-        found = agreement(some)
-        numbers = (found.rms, found.noise, found.own, found.largest)
-        lines.append(f"{what:<12}{len(some):>6}" + "".join(f"{x:>10.2e}" for x in numbers))
-        return found
+    def line(name: str, group: Sequence[Pair]) -> Agreement:
+        summary = agreement(group)
+        numbers = (summary.rms, summary.noise, summary.own, summary.largest)
+        lines.append(f"{name:<12}{len(group):>6}" + "".join(f"{x:>10.2e}" for x in numbers))
+        return summary
 
-    for nm in sorted({each.wavelength for each in pairs}):
-        line(f"{nm:g} nm", [each for each in pairs if each.wavelength == nm])
-    for name in dict.fromkeys(each.skin for each in pairs):
-        line(name, [each for each in pairs if each.skin == name])
-    if any(each.state for each in pairs):
-        line("tanned", [each for each in pairs if each.state])
-    found = line("all", pairs)
+    for nm in sorted({pair.wavelength for pair in pairs}):
+        line(f"{nm:g} nm", [pair for pair in pairs if pair.wavelength == nm])
+    for name in dict.fromkeys(pair.skin for pair in pairs):
+        line(name, [pair for pair in pairs if pair.skin == name])
+    if any(pair.state for pair in pairs):
+        line("tanned", [pair for pair in pairs if pair.state])
+    summary = line("all", pairs)
     lines.append(
-        f"aimed at: rms {MOST_RMS:g}: {_met(found.rms <= MOST_RMS)}; largest {MOST:g}: "
-        f"{_met(found.largest <= MOST)}"
+        f"aimed at: rms {MOST_RMS:g}: {_met(summary.rms <= MOST_RMS)}; largest {MOST:g}: "
+        f"{_met(summary.largest <= MOST)}"
     )
     return "\n".join(lines)
 
@@ -206,21 +206,25 @@ def _met(is_met: bool) -> str:
     return "met" if is_met else "NOT met"
 
 
-def compare(asked: argparse.Namespace) -> None:
+def compare(arguments: argparse.Namespace) -> None:
     """The command."""
-    require_work(asked)
-    rays = require_whole("number of rays", asked.rays, 100, MOST_RAYS)
-    asked.output.parent.mkdir(parents=True, exist_ok=True)
-    pairs = read(asked.output) if asked.resume and asked.output.exists() else []
+    require_work(arguments)
+    rays = require_whole("number of rays", arguments.rays, 100, MOST_RAYS)
+    arguments.output.parent.mkdir(parents=True, exist_ok=True)
+    pairs = read(arguments.output) if arguments.resume and arguments.output.exists() else []
     # a seed of its own for each, or all would share their noise
     tasks = {
-        (name, state, rays, seed): each
-        for seed, (name, state, each) in enumerate(specimens(asked.seed), start=asked.seed)
+        (name, state, rays, seed): specimen
+        for seed, (name, state, specimen) in enumerate(
+            specimens(arguments.seed), start=arguments.seed
+        )
     }
-    done = {(each.skin, each.state, each.rays, each.seed) for each in pairs}
+    done = {(pair.skin, pair.state, pair.rays, pair.seed) for pair in pairs}
     if not done <= tasks.keys():
-        raise InputError(f"{asked.output} is of other rays or another seed; leave out --resume.")
-    left = {key: each for key, each in tasks.items() if key not in done}
+        raise InputError(
+            f"{arguments.output} is of other rays or another seed; leave out --resume."
+        )
+    left = {key: specimen for key, specimen in tasks.items() if key not in done}
     total = len(left) * WAVELENGTHS.size * rays
     with tqdm(total=total, unit="ray", unit_scale=True, file=sys.stderr) as bar:
         for (name, state, _, seed), specimen in left.items():
@@ -231,12 +235,12 @@ def compare(asked: argparse.Namespace) -> None:
                 specimen,
                 rays=rays,
                 seed=seed,
-                threads=asked.threads,
+                threads=arguments.threads,
                 progress=bar.update,
             )
-            written(pairs, asked.output)
+            written(pairs, arguments.output)
     print(report(pairs))
-    print(f"wrote {asked.output}")
+    print(f"wrote {arguments.output}")
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -74,8 +74,8 @@ def many_years(histories: int) -> tuple[float, float, bool]:
 
 def report_tanning() -> None:
     """A year of one skin, and of ten thousand in a process of their own."""
-    one = np.random.default_rng(1).uniform(0.0, 30.0, 52)
-    milliseconds = [1e3 * each for each in timed(lambda: a_year(one), 20)]
+    year_of_doses = np.random.default_rng(1).uniform(0.0, 30.0, 52)
+    milliseconds = [1e3 * seconds for seconds in timed(lambda: a_year(year_of_doses), 20)]
     report("tanning, a year in hours, one history", milliseconds, "ms")
     figures = []
     for _ in range(3):
@@ -98,7 +98,7 @@ def main() -> None:
                 spectrum(SPECIMENS[name], VISIBLE, rays=rays, threads=1, as_printed=as_printed)
 
             seconds = timed(light, clock=time.process_time)
-            rates = [VISIBLE.size * rays / each for each in seconds]
+            rates = [VISIBLE.size * rays / passed for passed in seconds]
             report(f"light, {name}, 400 to 700 nm, one core, {way}", rates, "rays/s")
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 

@@ -74,9 +74,9 @@ def ranged(figures: list[float]) -> str:
     return f"{text} ({min(figures):.3g} to {max(figures):.3g})" if len(figures) > 1 else text
 
 
-def said(what: str, found: str, limit: str, kept: bool) -> None:
+def said(what: str, measured: str, limit: str, within: bool) -> None:
     """One line."""
-    print(f"{what:<58} {found}; must be {limit}: {'yes' if kept else 'NO'}", flush=True)
+    print(f"{what:<58} {measured}; must be {limit}: {'yes' if within else 'NO'}", flush=True)
 
 
 def report_spectra(skin: Skin) -> None:
@@ -97,8 +97,8 @@ def report_spectra(skin: Skin) -> None:
     )
     reflectance = table.planes["band_reflectance"]
     rays = float(np.mean(reflectance * (1.0 - reflectance))) / ERROR**2
-    each = [printed_seconds(skin, table, number) for number in range(REPEATS)]
-    seconds = [one * rays * reflectance.size for one in each]
+    passes = [printed_seconds(skin, table, number) for number in range(REPEATS)]
+    seconds = [by_spectrum * rays * reflectance.size for by_spectrum in passes]
     ratio = np.median(seconds) / np.median(taken.processor)
     print(
         f"  as printed, the walk needs {rays:.3g} rays each for that RMSE: {ranged(seconds)} s of "
@@ -113,12 +113,14 @@ def solver_error(skin: Skin, table: SkinTable) -> tuple[float, float]:
     The walk's variance is taken off the mean square.
     """
     states = table.axes.knot_states().reshape(-1, 4)
-    known = table.planes["band_reflectance"].reshape(len(states), -1)[:, ::WALKED_STEP]
+    by_table = table.planes["band_reflectance"].reshape(len(states), -1)[:, ::WALKED_STEP]
     excess = []
     for place in np.linspace(0, len(states) - 1, WALKED_STATES).astype(int):
         specimen = skin.at(states[place])
-        found = walked(specimen, FINE[::WALKED_STEP], angle=ANGLE, rays=WALKED_RAYS, threads=CORES)
-        excess.append((known[place] - found.total) ** 2 - found.standard_error**2)
+        spectrum = walked(
+            specimen, FINE[::WALKED_STEP], angle=ANGLE, rays=WALKED_RAYS, threads=CORES
+        )
+        excess.append((by_table[place] - spectrum.total) ** 2 - spectrum.standard_error**2)
     squares = np.concatenate(excess)
     mean, error = squares.mean(), squares.std(ddof=1) / np.sqrt(squares.size)
     return float(np.sqrt(max(mean, 0.0))), float(np.sqrt(max(mean + 1.645 * error, 0.0)))
@@ -175,8 +177,16 @@ def report_presets(skin: str) -> None:
     for name, (seconds, *limits) in PRESET_LIMITS.items():
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"{name}.exr"
-            asked = ["build", "--skin", skin, "--preset", name, "--threads", str(CORES)]
-            command = [sys.executable, "-m", "lut_builder.cli", *asked, "--force", "-o", str(path)]
+            arguments = ["build", "--skin", skin, "--preset", name, "--threads", str(CORES)]
+            command = [
+                sys.executable,
+                "-m",
+                "lut_builder.cli",
+                *arguments,
+                "--force",
+                "-o",
+                str(path),
+            ]
 
             def made(command=command) -> None:
                 subprocess.run(command, check=True, capture_output=True)

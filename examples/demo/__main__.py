@@ -40,14 +40,14 @@ def demo(_: argparse.Namespace) -> None:
         render.prepare(bpy.context.scene)
         with interrupt.removing(unfinished):
             stills(unfinished)
-            found = measured(what, obj, unfinished)
+            readings = measured(what, obj, unfinished)
             video(unfinished)
         made = sorted(path for path in unfinished.iterdir() if path.is_file())
         for path in made:
             os.replace(path, OUT / path.name)
     print(f"\nMade in {time.monotonic() - started:.0f} s, in {OUT.resolve()}:")
     print("  " + "  ".join(path.name for path in made))
-    print(f"\n{colours.report(found)}")
+    print(f"\n{colours.report(readings)}")
 
 
 def subject() -> scene.Subject:
@@ -108,7 +108,7 @@ def measured(what: scene.Subject, obj: bpy.types.Object, folder: Path) -> list[c
     """Read the colours of the skin back from renders of the days, as with a white standard."""
     predicted = colours.predictions(read_table(folder / TABLE), DOSE, DAYS)
     shown = bpy.context.scene
-    found = []
+    readings = []
     with tempfile.TemporaryDirectory(dir=folder) as scratch:
         file = Path(scratch) / "light.exr"
         with render.white(obj):
@@ -121,9 +121,9 @@ def measured(what: scene.Subject, obj: bpy.types.Object, folder: Path) -> list[c
         for day, both in zip(tqdm(DAYS, "colours", unit="frame"), predicted, strict=True):
             for patch, white, prediction in zip(patches, whites, both, strict=True):
                 light = render.light(shown, frame_of(day), render.READING, file, patch.window)
-                found.append(colours.reading(day, patch, light, white, prediction))
-    colours.write_csv(found, folder / "colours.csv")
-    return found
+                readings.append(colours.reading(day, patch, light, white, prediction))
+    colours.write_csv(readings, folder / "colours.csv")
+    return readings
 
 
 def video(folder: Path) -> None:

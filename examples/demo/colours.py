@@ -70,13 +70,13 @@ def patches(white: Light, cloth: swimsuit.Field, camera: np.ndarray) -> list[Pat
     view = camera - position
     facing = np.sum(view * normal, axis=-1) / np.linalg.norm(view, axis=-1)
     good = (brightness >= np.median(brightness)) & (facing > 0.8)
-    found = []
+    patches = []
     for skin, side in zip(SKINS, (-1.0, 1.0), strict=True):
         candidates = position[good & (side * distance > CLEAR_OF_EDGE)]
         candidates = candidates[:: max(1, len(candidates) // 300)]
         centre = _most_even(candidates, position, brightness)
-        found.append(Patch(skin, centre, _window(_near(white.position, centre))))
-    return found
+        patches.append(Patch(skin, centre, _window(_near(white.position, centre))))
+    return patches
 
 
 def _most_even(candidates: np.ndarray, position: np.ndarray, brightness: np.ndarray) -> np.ndarray:
@@ -127,23 +127,24 @@ def predictions(table: SkinTable, dose: float, days: Sequence[float]) -> np.ndar
     return np.moveaxis(table.plane("subsurface_colour", history.states[:, hours]), 0, 1)
 
 
-def report(found: Sequence[Reading]) -> str:
+def report(readings: Sequence[Reading]) -> str:
     """A table to print, and what stands between render and model."""
     lines = [
         f"{'':15}{'read back from the render':^40}{'predicted by the model':^40}",
         f"{'day':>4} {'skin':9} {_heading()} {_heading()}  CIEDE2000",
     ]
-    for each in found:
-        lines.append(
-            f"{each.day:4g} {each.skin:9} {_described(each.rendered)} {_described(each.predicted)}"
-            f"  {each.difference:9.2f}"
-        )
-    entering = np.mean([each.entering for each in found])
-    inside = [colour.difference(each.rendered / each.entering, each.predicted) for each in found]
+    for reading in readings:
+        pair = f"{_described(reading.rendered)} {_described(reading.predicted)}"
+        lines.append(f"{reading.day:4g} {reading.skin:9} {pair}  {reading.difference:9.2f}")
+    entering = np.mean([reading.entering for reading in readings])
+    inside = [
+        colour.difference(reading.rendered / reading.entering, reading.predicted)
+        for reading in readings
+    ]
     lines.append(
         f"The shader's surface lets {entering:.1%} of the light into the skin. Counting only what "
         f"went in, the mean CIEDE2000 is {np.mean(inside):.2f} in place of "
-        f"{np.mean([each.difference for each in found]):.2f}."
+        f"{np.mean([reading.difference for reading in readings]):.2f}."
     )
     return "\n".join(lines)
 
@@ -162,23 +163,23 @@ def srgb_bytes(linear: np.ndarray) -> list[int]:
     return [round(255 * float(value)) for value in colour.srgb(linear)]
 
 
-def write_csv(found: Sequence[Reading], path: Path) -> None:
+def write_csv(readings: Sequence[Reading], path: Path) -> None:
     """Write all readings: sRGB as 0 to 255, L*a*b* under D65, and the CIEDE2000 between the two."""
     names = ("red", "green", "blue", "L", "a", "b")
     with path.open("w", newline="") as file:
         writer = csv.writer(file)
         sources = [f"{source}_{name}" for source in ("rendered", "predicted") for name in names]
         writer.writerow(["day", "skin", *sources, "ciede2000", "entering"])
-        for each in found:
+        for reading in readings:
             numbers = []
-            for linear in (each.rendered, each.predicted):
+            for linear in (reading.rendered, reading.predicted):
                 numbers += [*srgb_bytes(linear), *(f"{value:.3f}" for value in colour.lab(linear))]
             writer.writerow(
                 [
-                    f"{each.day:g}",
-                    each.skin,
+                    f"{reading.day:g}",
+                    reading.skin,
                     *numbers,
-                    f"{each.difference:.3f}",
-                    f"{each.entering:.4f}",
+                    f"{reading.difference:.3f}",
+                    f"{reading.entering:.4f}",
                 ]
             )

@@ -149,8 +149,8 @@ def read_channels(path: Path) -> dict[str, np.ndarray]:
 
 def one_pass(channels: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndarray:
     """The pass (rows, columns, 3 or 4) that has one of the names in `read_channels`."""
-    found = [planes for name, planes in channels.items() if name.split(".")[1] in names]
-    return np.stack(found, axis=-1)
+    components = [planes for name, planes in channels.items() if name.split(".")[1] in names]
+    return np.stack(components, axis=-1)
 
 
 def set_file_format(scene: bpy.types.Scene, kind: str, file_format: str) -> None:

@@ -51,10 +51,10 @@ GROUPS = (
 
 def main() -> int:
     """Read the arguments and draw."""
-    known = ", ".join(name for group in GROUPS for name in group.FIGURES)
+    names = ", ".join(name for group in GROUPS for name in group.FIGURES)
     parser = argparse.ArgumentParser(prog="python -m examples.figures", description=__doc__)
     parser.add_argument(
-        "names", nargs="*", help=f"which: a letter or number for several; all are {known}"
+        "names", nargs="*", help=f"which: a letter or number for several; all are {names}"
     )
     parser.add_argument("--rays", type=int, default=Effort.rays, help="per wavelength")
     parser.add_argument("--seed", type=int, default=Effort.seed)
@@ -66,32 +66,34 @@ def main() -> int:
     return run(figures, parser.parse_args())
 
 
-def figures(asked: argparse.Namespace) -> None:
+def figures(arguments: argparse.Namespace) -> None:
     """Compute and draw what is asked for, and write the report."""
-    require_whole("number of rays", asked.rays, 1, 10**8)
-    require_whole("seed", asked.seed, 0, 2**32 - 1)
-    groups = chosen(asked.names)
-    measured = read_people(asked.people) if asked.people else None
-    effort = Effort(asked.rays, asked.seed, asked.threads, measured)
-    asked.out.mkdir(parents=True, exist_ok=True)
+    require_whole("number of rays", arguments.rays, 1, 10**8)
+    require_whole("seed", arguments.seed, 0, 2**32 - 1)
+    groups = groups_with(arguments.names)
+    measured = read_people(arguments.people) if arguments.people else None
+    effort = Effort(arguments.rays, arguments.seed, arguments.threads, measured)
+    arguments.out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     work = {group: group.tasks(effort) for group in groups}
     results = computed(work)
-    rows = [row for group in groups for row in group.draw(results[group], asked.out)]
+    rows = [row for group in groups for row in group.draw(results[group], arguments.out)]
     seconds = time.monotonic() - started
     heading = (
         f"hylios {hylios.__version__}; {effort.rays:,} rays per wavelength where rays walk, seed "
         f"{effort.seed}; made in {seconds:.0f} s."
     )
-    report.write(asked.out / "report.md", rows, heading)
+    report.write(arguments.out / "report.md", rows, heading)
     missed = [row for row in rows if row.met is False]
-    print(f"Made in {seconds:.0f} s, in {asked.out.resolve()}; report.md has {len(rows)} lines.")
+    print(
+        f"Made in {seconds:.0f} s, in {arguments.out.resolve()}; report.md has {len(rows)} lines."
+    )
     print(f"{sum(row.met is True for row in rows)} aims met, {len(missed)} not:")
     for row in missed:
         print(f"  {row.where}, {row.what}: thesis {row.printed}, ours {row.ours}")
 
 
-def chosen(names: Sequence[str]) -> list[ModuleType]:
+def groups_with(names: Sequence[str]) -> list[ModuleType]:
     """The groups that hold a named figure, or all without a name.
 
     Raises
@@ -101,12 +103,12 @@ def chosen(names: Sequence[str]) -> list[ModuleType]:
     """
     for name in names:
         if not any(matches(name, figure) for group in GROUPS for figure in group.FIGURES):
-            known = ", ".join(figure for group in GROUPS for figure in group.FIGURES)
-            raise InputError(f"there is no figure {name!r}; there are {known}.")
+            names = ", ".join(figure for group in GROUPS for figure in group.FIGURES)
+            raise InputError(f"there is no figure {name!r}; there are {names}.")
     return [
         group
         for group in GROUPS
-        if not names or any(matches(name, each) for name in names for each in group.FIGURES)
+        if not names or any(matches(name, figure) for name in names for figure in group.FIGURES)
     ]
 
 

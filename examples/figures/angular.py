@@ -51,10 +51,10 @@ UP_TO = 75.0
 
 def tasks(effort: Effort) -> dict[str, Task]:
     """A BRDF for each angle of incidence over the visible, and for each wavelength of 6.8."""
-    found = {f"visible {angle:g}": over_the_visible(angle, effort) for angle in INCIDENCES}
+    work = {f"visible {angle:g}": over_the_visible(angle, effort) for angle in INCIDENCES}
     for wavelength in (UV, IR):
-        found[f"{wavelength:g} nm"] = at_one(wavelength, OBLIQUE, MANY * effort.rays, effort)
-    return found
+        work[f"{wavelength:g} nm"] = at_one(wavelength, OBLIQUE, MANY * effort.rays, effort)
+    return work
 
 
 def at_one(wavelength: float, angle: float, rays: int, effort: Effort) -> Task:
@@ -62,7 +62,7 @@ def at_one(wavelength: float, angle: float, rays: int, effort: Effort) -> Task:
     size = rays / RAYS_AS_LONG
 
     def work(tick: Tick) -> AngularReflectance:
-        found = brdf(
+        distribution = brdf(
             SKIN,
             wavelength,
             angle=angle,
@@ -73,14 +73,14 @@ def at_one(wavelength: float, angle: float, rays: int, effort: Effort) -> Task:
             threads=effort.threads,
         )
         tick(size)
-        return found
+        return distribution
 
     return Task(work, size)
 
 
 def over_the_visible(angle: float, effort: Effort) -> Task:
     """The task of a mean BRDF over the visible, every wavelength with the same weight."""
-    parts = [at_one(each, angle, FEW * effort.rays, effort) for each in VISIBLE]
+    parts = [at_one(wavelength, angle, FEW * effort.rays, effort) for wavelength in VISIBLE]
 
     def work(tick: Tick) -> AngularReflectance:
         return together([cast(AngularReflectance, part.work(tick)) for part in parts])
@@ -100,10 +100,10 @@ def together(parts: list[AngularReflectance]) -> AngularReflectance:
 
 def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     """Draw both figures and compare."""
-    found = cast(Mapping[str, AngularReflectance], results)
-    draw_plane(found, folder / "6.7.png")
-    draw_lobes(found, folder / "6.8.png")
-    return [*plane_rows(found), *lobe_rows(found)]
+    distributions = cast(Mapping[str, AngularReflectance], results)
+    draw_plane(distributions, folder / "6.7.png")
+    draw_lobes(distributions, folder / "6.8.png")
+    return [*plane_rows(distributions), *lobe_rows(distributions)]
 
 
 def in_plane(
@@ -120,9 +120,9 @@ def in_plane(
     number = np.where(alike, counts.shape[1], 1)
     sides = []
     for column in (-1, 0):
-        found = number * np.where(alike, rings[0], counts[:, column])
+        rays = number * np.where(alike, rings[0], counts[:, column])
         size = number * np.where(alike, rings[1], wide[:, column])
-        sides.append((found / lobes.rays / size, share_error(found, lobes.rays) / size))
+        sides.append((rays / lobes.rays / size, share_error(rays, lobes.rays) / size))
     polar = 0.5 * (lobes.polar_edges[1:] + lobes.polar_edges[:-1])
     back, front = sides
     return (
@@ -150,31 +150,31 @@ def measured(angle: float, directions: np.ndarray) -> np.ndarray:
     )
 
 
-def draw_plane(found: Mapping[str, AngularReflectance], path: Path) -> None:
+def draw_plane(distributions: Mapping[str, AngularReflectance], path: Path) -> None:
     """Figure 6.7."""
     figure, axes = sheet(12.0, 5.0, columns=2)
     fine = np.linspace(-88.0, 88.0, 353)
-    for place, angle in zip(axes[0], INCIDENCES, strict=True):
-        ours = found[f"visible {angle:g}"]
+    for panel, angle in zip(axes[0], INCIDENCES, strict=True):
+        ours = distributions[f"visible {angle:g}"]
         parts = {
             "HyLIoS S1, aspect ratio 0.3": (everything(ours), COLOURS[1]),
             "its surface part": (ours.surface_counts, COLOURS[2]),
             "its subsurface part": (ours.subsurface_counts, COLOURS[4]),
         }
-        place.plot(fine, measured(angle, fine), "k--", lw=1.2, label="lobes fitted to a forehead")
+        panel.plot(fine, measured(angle, fine), "k--", lw=1.2, label="lobes fitted to a forehead")
         for name, (counts, colour) in parts.items():
             directions, curve, error = in_plane(ours, counts)
-            place.plot(directions, curve, color=colour, lw=1.4, label=name)
-            place.fill_between(directions, curve - error, curve + error, color=colour, alpha=0.25)
-        mark_mirror(place, angle)
+            panel.plot(directions, curve, color=colour, lw=1.4, label=name)
+            panel.fill_between(directions, curve - error, curve + error, color=colour, alpha=0.25)
+        mark_mirror(panel, angle)
         directions, curve, _ = in_plane(ours, everything(ours))
-        place.set(
+        panel.set(
             xlabel="direction of reflection in the plane of incidence (degrees)",
             title=f"incidence {angle:g} degrees",
             xlim=(-90.0, 90.0),
             ylim=(0.0, 1.3 * curve[np.abs(directions) < UP_TO].max()),
         )
-        place.grid(alpha=0.25)
+        panel.grid(alpha=0.25)
     axes[0, 0].set_ylabel("BRDF (1/sr), mean over 400 to 700 nm")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=9)
@@ -182,11 +182,11 @@ def draw_plane(found: Mapping[str, AngularReflectance], path: Path) -> None:
     write_figure(figure, path)
 
 
-def mark_mirror(place: Axes, angle: float) -> None:
+def mark_mirror(panel: Axes, angle: float) -> None:
     """Show where a mirror would send the light."""
-    place.axvline(angle, color="grey", lw=0.8, ls=":")
-    across = place.get_xaxis_transform()
-    place.text(
+    panel.axvline(angle, color="grey", lw=0.8, ls=":")
+    across = panel.get_xaxis_transform()
+    panel.text(
         angle - 1.0,
         0.98,
         "mirror",
@@ -199,16 +199,16 @@ def mark_mirror(place: Axes, angle: float) -> None:
     )
 
 
-def draw_lobes(found: Mapping[str, AngularReflectance], path: Path) -> None:
+def draw_lobes(distributions: Mapping[str, AngularReflectance], path: Path) -> None:
     """Figure 6.8: f_r times the cosine in the plane of incidence, the largest total being 1."""
     figure = Figure(figsize=(12.0, 4.2), dpi=120)
     for left, wavelength in ((0.04, UV), (0.54, IR)):
         box = (left, -0.13, 0.42, 1.2)  # the half circle fills its middle half
-        place = cast(PolarAxes, figure.add_axes(box, projection="polar"))
-        most = draw_lobe(place, found[f"{wavelength:g} nm"])
+        panel = cast(PolarAxes, figure.add_axes(box, projection="polar"))
+        most = draw_lobe(panel, distributions[f"{wavelength:g} nm"])
         heading = f"{wavelength:g} nm; 1 stands for {most:.3f}/sr"
         figure.text(left + 0.21, 0.87, heading, ha="center")
-        handles, labels = place.get_legend_handles_labels()
+        handles, labels = panel.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncols=3, fontsize=9)
     figure.suptitle(
         "6.8  BRDF times cosine in the plane of incidence, S1 with aspect ratio 0.3, light from "
@@ -217,7 +217,7 @@ def draw_lobes(found: Mapping[str, AngularReflectance], path: Path) -> None:
     write_figure(figure, path)
 
 
-def draw_lobe(place: PolarAxes, lobes: AngularReflectance) -> float:
+def draw_lobe(panel: PolarAxes, lobes: AngularReflectance) -> float:
     """One wavelength of figure 6.8; returns its largest total in 1/sr."""
     parts = {
         "total, $R_t$": (everything(lobes), COLOURS[0], "-"),
@@ -229,24 +229,24 @@ def draw_lobe(place: PolarAxes, lobes: AngularReflectance) -> float:
     most = float(np.max(total * cosine))
     for name, (counts, colour, style) in parts.items():
         radius = in_plane(lobes, counts)[1] * cosine / most
-        place.plot(np.radians(directions), radius, color=colour, ls=style, label=name)
+        panel.plot(np.radians(directions), radius, color=colour, ls=style, label=name)
     arrow = {"arrowstyle": "->", "color": "grey", "lw": 1.2}
-    place.annotate("", (0.0, 0.0), (np.radians(-OBLIQUE), 1.0), arrowprops=arrow)
-    place.set_theta_zero_location("N")
-    place.set_theta_direction(-1)
-    place.set_thetamin(-90.0)
-    place.set_thetamax(90.0)
-    place.set_rlim(0.0, 1.05)
-    place.set_rticks([0.25, 0.5, 0.75, 1.0])
-    place.tick_params(labelsize=8)
+    panel.annotate("", (0.0, 0.0), (np.radians(-OBLIQUE), 1.0), arrowprops=arrow)
+    panel.set_theta_zero_location("N")
+    panel.set_theta_direction(-1)
+    panel.set_thetamin(-90.0)
+    panel.set_thetamax(90.0)
+    panel.set_rlim(0.0, 1.05)
+    panel.set_rticks([0.25, 0.5, 0.75, 1.0])
+    panel.tick_params(labelsize=8)
     return most
 
 
-def plane_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:
+def plane_rows(distributions: Mapping[str, AngularReflectance]) -> list[Row]:
     """Figure 6.7 in numbers, beside the fitted measurement."""
     rows = []
     for angle in INCIDENCES:
-        ours = found[f"visible {angle:g}"]
+        ours = distributions[f"visible {angle:g}"]
         directions, curve, error = in_plane(ours, everything(ours))
         near = np.abs(directions) < UP_TO
         theirs = measured(angle, directions)
@@ -261,12 +261,12 @@ def plane_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:
                 f"{ours.rays:,} rays, standard error up to {np.max((error / theirs)[near]):.1%}",
             )
         )
-    return [*rows, *shape_rows(found), reciprocity_row(found)]
+    return [*rows, *shape_rows(distributions), reciprocity_row(distributions)]
 
 
-def reciprocity_row(found: Mapping[str, AngularReflectance]) -> Row:
+def reciprocity_row(distributions: Mapping[str, AngularReflectance]) -> Row:
     """Light in at 0 and out at 60 degrees beside the reverse, out to every side."""
-    level, steep = (found[f"visible {angle:g}"] for angle in INCIDENCES)
+    level, steep = (distributions[f"visible {angle:g}"] for angle in INCIDENCES)
     there = everything(level)[11:13].sum() / level.projected_solid_angle[11:13].sum() / level.rays
     back = everything(steep)[:1].sum() / steep.projected_solid_angle[:1].sum() / steep.rays
     return Row(
@@ -278,18 +278,19 @@ def reciprocity_row(found: Mapping[str, AngularReflectance]) -> Row:
     )
 
 
-def shape_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:
+def shape_rows(distributions: Mapping[str, AngularReflectance]) -> list[Row]:
     """How the BRDF depends on the angle, ours and the fitted measurement's."""
     rows = []
     for angle, what, pair in (
         (0.0, "at the normal over 62.5° from it", (2.5, 62.5)),
         (60.0, "62.5° to the mirror's side over 62.5° to the light's", (62.5, -62.5)),
     ):
-        ours = found[f"visible {angle:g}"]
+        ours = distributions[f"visible {angle:g}"]
         directions, curve, _ = in_plane(ours, everything(ours))
-        place = [int(np.argmin(np.abs(directions - each))) for each in pair]
+        nearest = [int(np.argmin(np.abs(directions - direction))) for direction in pair]
         mine, theirs = (
-            float(each[place[0]] / each[place[1]]) for each in (curve, measured(angle, directions))
+            float(values[nearest[0]] / values[nearest[1]])
+            for values in (curve, measured(angle, directions))
         )
         rows.append(
             Row(
@@ -318,9 +319,9 @@ def subsurface_share(lobes: AngularReflectance) -> float:
     return float(inside / (inside + lobes.surface_counts.sum()))
 
 
-def lobe_rows(found: Mapping[str, AngularReflectance]) -> list[Row]:
+def lobe_rows(distributions: Mapping[str, AngularReflectance]) -> list[Row]:
     """What the thesis says of figure 6.8."""
-    uv, ir = found[f"{UV:g} nm"], found[f"{IR:g} nm"]
+    uv, ir = distributions[f"{UV:g} nm"], distributions[f"{IR:g} nm"]
     apart = from_lambertian(uv), from_lambertian(ir)
     share = subsurface_share(uv), subsurface_share(ir)
     noise = f"{uv.rays:,} rays"

@@ -85,16 +85,16 @@ def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
             ("PCA", case.whole, case.printed_whole),
             ("PPCA", case.pieces, case.printed_pieces),
         ):
-            found = draw_case(spectra, case, method, number, printed, folder)
+            errors_of_pieces = draw_case(spectra, case, method, number, printed, folder)
             as_noisy = piece_errors(printed_noise, case, method, worst(spectra, case)[1])
             rows += [
                 with_noise(
                     number,
                     f"{method}, {case.components} components, RMSE in {name}",
-                    *each,
+                    *numbers,
                     THESIS_RAYS,
                 )
-                for name, *each in zip(PIECES, printed, found, as_noisy, strict=True)
+                for name, *numbers in zip(PIECES, printed, errors_of_pieces, as_noisy, strict=True)
             ]
     for number, case, ways in SWATCHES:
         rows.append(draw_swatches(spectra, number, case, ways, folder))
@@ -135,37 +135,37 @@ def draw_case(
     Returns the RMSE of each region.
     """
     part, row, specimen = worst(spectra, case)
-    again = METHODS[method](part, case.components)[row]
-    found = piece_errors(spectra, case, method, row)
+    rebuilt = METHODS[method](part, case.components)[row]
+    errors_of_pieces = piece_errors(spectra, case, method, row)
     figure, axes = sheet(8.5, 4.6)
-    place = axes[0, 0]
-    place.errorbar(
+    panel = axes[0, 0]
+    panel.errorbar(
         RANGE[::4],
         part[row][::4],
-        10.0 * np.abs(part[row] - again)[::4],
+        10.0 * np.abs(part[row] - rebuilt)[::4],
         fmt="none",
         ecolor="#0072b2",
         elinewidth=0.8,
         label="10 x difference",
     )
-    curves = {"modelled": part[row], f"{method}, {case.components} components": again}
-    plot(place, {name: exact(values) for name, values in curves.items()}, (RANGE[0], RANGE[-1]))
+    curves = {"modelled": part[row], f"{method}, {case.components} components": rebuilt}
+    plot(panel, {name: exact(values) for name, values in curves.items()}, (RANGE[0], RANGE[-1]))
     for _, last in list(PIECES.values())[:2]:
-        place.axvline(last, color="grey", lw=0.6, ls=":")
+        panel.axvline(last, color="grey", lw=0.6, ls=":")
     regions = "; ".join(
         f"{name} {ours:.4f} (thesis {theirs:.4f})"
-        for name, ours, theirs in zip(PIECES, found, printed, strict=True)
+        for name, ours, theirs in zip(PIECES, errors_of_pieces, printed, strict=True)
     )
     reflectance_axes(
-        place,
+        panel,
         RANGE[0],
         RANGE[-1],
         f"{number}  Worst of {case.subset}, N{specimen}\nRMSE {regions}",
     )
-    place.title.set_fontsize(9)
-    place.legend()
+    panel.title.set_fontsize(9)
+    panel.legend()
     write_figure(figure, folder / f"{number}.png")
-    return found
+    return errors_of_pieces
 
 
 def piece_errors(spectra: np.ndarray, case: Case, method: str, row: int) -> list[float]:
@@ -205,7 +205,7 @@ def draw_swatches(
     first, second, original = (
         visible_colour(curve.wavelengths, curve.reflectance, "visible") for curve in shown.values()
     )
-    apart = [float(difference(each, original)) for each in (first, second)]
+    apart = [float(difference(rebuilt, original)) for rebuilt in (first, second)]
     names = " and ".join(list(shown)[:2])
     return claim(
         number,
@@ -218,11 +218,11 @@ def draw_swatches(
 
 def noise_levels(spectra: np.ndarray) -> dict[str, list[float]]:
     """Maximum RMSE at 8 components with so many rays, by subset."""
-    found: dict[str, list[float]] = {name: [] for name in PRINTED}
+    largest_errors: dict[str, list[float]] = {name: [] for name in PRINTED}
     for rays in NOISY_RAYS:
         for name, values in largest(noisy(spectra, rays, seed=rays), "PCA").items():
-            found[name].append(values[-1])
-    return found
+            largest_errors[name].append(values[-1])
+    return largest_errors
 
 
 def draw_table(
@@ -255,9 +255,9 @@ def draw_table(
         ylabel="maximum RMSE",
         title="8 components, with noise (dashed: without; circles: thesis)",
     )
-    for place in (left, right):
-        place.grid(alpha=0.25)
-        place.legend(fontsize=7)
+    for panel in (left, right):
+        panel.grid(alpha=0.25)
+        panel.legend(fontsize=7)
     figure.suptitle("Table D.1")
     write_figure(figure, path)
 
@@ -267,9 +267,9 @@ def table_rows(spectra: np.ndarray, printed_noise: np.ndarray) -> list[Row]:
     whole, apart = largest(spectra, "PCA"), largest(spectra, "PPCA")
     as_noisy = largest(printed_noise, "PCA")
     rows = [
-        with_noise("table D.1", f"{name}, {count} components, maximum RMSE", *each, THESIS_RAYS)
+        with_noise("table D.1", f"{name}, {count} components, maximum RMSE", *numbers, THESIS_RAYS)
         for name, printed in PRINTED.items()
-        for count, *each in zip(COMPONENTS, printed, whole[name], as_noisy[name], strict=True)
+        for count, *numbers in zip(COMPONENTS, printed, whole[name], as_noisy[name], strict=True)
     ]
     for name, printed in PRINTED.items():
         enough = needed(printed)
@@ -304,14 +304,14 @@ def noise_rows(spectra: np.ndarray, noise: Mapping[str, list[float]]) -> list[Ro
     """How many rays it takes for the noise not to be what is measured at 8 components."""
     without = {name: values[-1] for name, values in largest(spectra, "PCA").items()}
     rows = []
-    for name, found in noise.items():
+    for name, values in noise.items():
         enough = [
             rays
-            for rays, value in zip(NOISY_RAYS, found, strict=True)
+            for rays, value in zip(NOISY_RAYS, values, strict=True)
             if value < (1.0 + NOISE_SHARE) * without[name]
         ]
         by_rays = ", ".join(
-            f"{value:.5f} ({rays:.0e})" for rays, value in zip(NOISY_RAYS, found, strict=True)
+            f"{value:.5f} ({rays:.0e})" for rays, value in zip(NOISY_RAYS, values, strict=True)
         )
         needed = f"{enough[0]:.0e} rays" if enough else f"more than {NOISY_RAYS[-1]:.0e} rays"
         rows.append(

@@ -69,7 +69,7 @@ def rows(tick: Tick) -> list[Row]:
     def keratin(times: float) -> Absorbers:
         return replace(ours, keratin=times)
 
-    found = [
+    rows = [
         row("DNA as in table 6.2, in the epidermis", ours),
         row("DNA as in table 6.2, in the dermis too", everywhere(1.0)),
         row("no urocanic acid", replace(ours, urocanic_acid=0.0)),
@@ -85,11 +85,11 @@ def rows(tick: Tick) -> list[Row]:
     ):
         tick(6.0 * WAVELENGTHS.size)
         needed = solved(lambda x, change=change: dna_index(change(x)), PRINTED_DNA)
-        found.append(row(f"for DNA .135: {what} {needed:.3g}{unit}", change(needed)))
+        rows.append(row(f"for DNA .135: {what} {needed:.3g}{unit}", change(needed)))
     needed = solved(lambda times: keratin_index(keratin(times)), PRINTED_KERATIN)
-    found.append(row(f"for keratin .068: keratin times {needed:.3g}", keratin(needed)))
+    rows.append(row(f"for keratin .068: keratin times {needed:.3g}", keratin(needed)))
     tick(36.0 * WAVELENGTHS.size)
-    return found
+    return rows
 
 
 def row(what: str, absorbers: Absorbers) -> Row:
@@ -135,7 +135,7 @@ def reflectance(absorbers: Absorbers) -> np.ndarray:
         },
         allow_unphysical=True,
     )
-    return exact([absorbing(Stack.of(skin, each), each, absorbers) for each in WAVELENGTHS], ANGLE)
+    return exact([absorbing(Stack.of(skin, nm), nm, absorbers) for nm in WAVELENGTHS], ANGLE)
 
 
 def absorbing(skin: Stack, wavelength: float, absorbers: Absorbers) -> Stack:

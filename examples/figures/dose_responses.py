@@ -91,12 +91,12 @@ def one_minimal_dose(skin: Skin) -> TanningHistory:
 def thickening() -> dict[str, TanningHistory]:
     """What single doses do to the thickness, and a daily one (figure B.2)."""
     unit = MILLER_SKIN.med
-    found = {
+    thickened = {
         name: history(MILLER_SKIN, [(0.0, dose * unit)], THICKENING_DAYS)
         for name, dose in THICKENING.items()
     }
     daily = _daily(DAILY, DAILY_MED * unit)
-    return {**found, "daily": history(MILLER_SKIN, daily, THICKENING_DAYS)}
+    return {**thickened, "daily": history(MILLER_SKIN, daily, THICKENING_DAYS)}
 
 
 def draw_photoaddition(adding: Mapping[str, TanningHistory], path: Path) -> None:
@@ -119,8 +119,8 @@ def draw_photoaddition(adding: Mapping[str, TanningHistory], path: Path) -> None
         axes[0, 1].plot(adding[name].hours / 24, rise, color=hue, ls=line, label=label)
     axes[0, 1].set(xlabel="day", ylabel="increase of melanin (%)", xlim=(0.0, ADDING_DAYS))
     axes[0, 1].legend()
-    for place in axes.flat:
-        place.grid(alpha=0.25)
+    for panel in axes.flat:
+        panel.grid(alpha=0.25)
     figure.suptitle(
         "6.21  Photoaddition, low set, MMD 2.89 SED. Doses and days are ASSUMED", fontsize=11
     )
@@ -136,8 +136,8 @@ def draw_layers(single: Mapping[str, TanningHistory], path: Path) -> None:
         column[1].plot(states.hours / 24, 100.0 * (states.total - 1.0), color="black")
         column[1].plot(7.0, 10.0, "o", color=COLOURS[1], label="about 10 % on day 7 (printed)")
         column[1].set(xlabel="day", xlim=(0.0, LAYER_DAYS))
-        for place in column:
-            place.grid(alpha=0.25)
+        for panel in column:
+            panel.grid(alpha=0.25)
     axes[0, 0].set_ylabel("melanin of the layer\n(relative to all at the start)")
     axes[1, 0].set_ylabel("increase of melanin (%)")
     axes[0, 0].legend(fontsize=8)
@@ -153,21 +153,21 @@ def draw_layers(single: Mapping[str, TanningHistory], path: Path) -> None:
 def draw_thickening(grown: Mapping[str, TanningHistory], path: Path) -> None:
     """Figure B.2: thickness after one dose, and after a daily one with what was measured."""
     figure, axes = sheet(8.0, 4.8)
-    place = axes[0, 0]
+    panel = axes[0, 0]
     for hue, (name, states) in zip(COLOURS, grown.items(), strict=False):
         label = f"{DAILY} days of {DAILY_MED:g} MED" if name == "daily" else name
-        place.plot(states.hours / 24, states.thickness, color=hue, label=label)
-    place.plot(
+        panel.plot(states.hours / 24, states.thickness, color=hue, label=label)
+    panel.plot(
         DAILY,
         measured_growth(),
         "o",
         color=COLOURS[len(THICKENING)],
         label=f"measured after {DAILY} days of {DAILY_MED:g} MED (not by Lopez et al.)",
     )
-    place.set(xlabel="day", ylabel="thickness relative to the start", xlim=(0.0, THICKENING_DAYS))
-    place.grid(alpha=0.25)
-    place.legend(fontsize=8)
-    place.set_title(
+    panel.set(xlabel="day", ylabel="thickness relative to the start", xlim=(0.0, THICKENING_DAYS))
+    panel.grid(alpha=0.25)
+    panel.legend(fontsize=8)
+    panel.set_title(
         "B.2  Thickness, table 6.6. All doses are ASSUMED: neither the doses\nnor the "
         "measurements of Lopez et al. could be had",
         fontsize=10,
@@ -257,13 +257,13 @@ def shares_moved(states: TanningHistory, hour: int) -> np.ndarray:
 def thickening_rows(grown: Mapping[str, TanningHistory]) -> list[Row]:
     """When the skin is thickest after one dose, and what was measured elsewhere."""
     peaks = {name: grown[name].thickness for name in THICKENING}
-    found = ", ".join(
+    thickest = ", ".join(
         f"{thickness.max():.3f} on day {np.argmax(thickness) / 24:.1f}"
         for thickness in peaks.values()
     )
     after = float(grown["daily"].thickness[DAILY * 24])
     return [
-        Row("B.2", f"{', '.join(THICKENING)} (ASSUMED): thickest", "plotted", found),
+        Row("B.2", f"{', '.join(THICKENING)} (ASSUMED): thickest", "plotted", thickest),
         Row(
             "B.2",
             f"{DAILY} daily doses of {DAILY_MED:g} MED, a day after the last; measured by optical "

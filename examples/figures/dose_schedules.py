@@ -62,8 +62,8 @@ def tan(skin: Skin, schedule: Schedule, days: np.ndarray, tick: Tick) -> Tan:
     """Simulate a schedule up to the last day and ask the light model on some."""
     states = history(skin, schedule, days[-1])
     lightness = np.empty(days.size)
-    for place, hour in enumerate(np.round(24 * days).astype(int)):
-        lightness[place] = lab(colour(skin, states.states[hour]))[0]
+    for number, hour in enumerate(np.round(24 * days).astype(int)):
+        lightness[number] = lab(colour(skin, states.states[hour]))[0]
         tick(COLOUR_WAVELENGTHS)
     return Tan(schedule, states, days, lightness)
 
@@ -97,18 +97,18 @@ def _doses(axes: Axes, schedule: Schedule, hue: str) -> None:
 def draw_schedules(tans: Mapping[str, Tan], path: Path) -> None:
     """Figure 6.23: doses, layers, total melanin, thickness and L* of each schedule."""
     figure, axes = sheet(17.0, 8.6, columns=5, rows=len(tans), sharex=True, sharey="col")
-    for row, (name, each) in zip(axes, tans.items(), strict=True):
-        days = each.history.hours / 24
-        _doses(row[0], each.schedule, "grey")
-        row[0].axhline(MILLER_SKIN.mmd, color=COLOURS[1], ls=":", label="MMD")
-        row[0].axhline(MILLER_SKIN.med, color=COLOURS[4], ls=":", label="MED")
-        row[0].set_ylabel(f"{name} in {len(each.schedule)} doses\ndose (SED)")
-        plot_layers(row[1], each.history)
-        row[2].plot(days, each.history.total, color="black")
-        row[3].plot(days, each.history.thickness, color="black")
-        row[4].plot(each.days, each.lightness, color="black", marker=".", markersize=4)
-        for place in row:
-            place.grid(alpha=0.25)
+    for panels, (name, tan) in zip(axes, tans.items(), strict=True):
+        days = tan.history.hours / 24
+        _doses(panels[0], tan.schedule, "grey")
+        panels[0].axhline(MILLER_SKIN.mmd, color=COLOURS[1], ls=":", label="MMD")
+        panels[0].axhline(MILLER_SKIN.med, color=COLOURS[4], ls=":", label="MED")
+        panels[0].set_ylabel(f"{name} in {len(tan.schedule)} doses\ndose (SED)")
+        plot_layers(panels[1], tan.history)
+        panels[2].plot(days, tan.history.total, color="black")
+        panels[3].plot(days, tan.history.thickness, color="black")
+        panels[4].plot(tan.days, tan.lightness, color="black", marker=".", markersize=4)
+        for panel in panels:
+            panel.grid(alpha=0.25)
     titles = (
         "doses (ASSUMED)",
         "melanin of the layers",
@@ -116,10 +116,10 @@ def draw_schedules(tans: Mapping[str, Tan], path: Path) -> None:
         "thickness",
         "L*, D65 (measured: not to be had)",
     )
-    for place, title in zip(axes[0], titles, strict=True):
-        place.set_title(title, fontsize=10)
-    for place in axes[-1]:
-        place.set(xlabel="day", xlim=(-1.0, MILLER_DAYS))
+    for panel, title in zip(axes[0], titles, strict=True):
+        panel.set_title(title, fontsize=10)
+    for panel in axes[-1]:
+        panel.set(xlabel="day", xlim=(-1.0, MILLER_DAYS))
     axes[0, 0].legend(fontsize=8, loc="upper right")
     axes[0, 1].legend(fontsize=8)
     figure.suptitle(
@@ -136,8 +136,8 @@ def schedule_rows(results: Mapping[str, Tan]) -> list[Row]:
     rows = []
     for kind, label in (("", "equal doses"), (" rising", "doses rising from 1 MED")):
         tans = [results[f"{name}{kind}"] for name in SCHEDULES]
-        peaks = [rise(each.history) for each in tans]
-        darker = [each.lightness[0] - each.lightness.min() for each in tans]
+        peaks = [rise(tan.history) for tan in tans]
+        darker = [tan.lightness[0] - tan.lightness.min() for tan in tans]
         comparable = abs(peaks[0] - peaks[1]) < 0.5 * abs(peaks[1] - peaks[2])
         when = "at its darkest" if not kind else "on day 31"
         rows.append(

@@ -104,11 +104,11 @@ def tasks(effort: Effort) -> dict[str, Task]:
     def work(sample: Sample):
         def count(tick: Tick) -> np.ndarray:
             rays, key = MANY * effort.rays, (effort.seed, round(WAVELENGTH * 1000))
-            found = counted(
+            counts = counted(
                 by_angle, prepared(sample), rays=rays, angle=0.0, key=key, threads=effort.threads
             )
             tick(size)
-            return found
+            return counts
 
         return Task(count, size)
 
@@ -140,19 +140,19 @@ def median(angles: np.ndarray, within: np.ndarray) -> float:
 
 def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     """Draw the figure and compare."""
-    found = cast(Mapping[str, np.ndarray], results)
+    counts = cast(Mapping[str, np.ndarray], results)
     angles, measured = sound("epidermis")
     figure = Figure(figsize=(11.0, 6.0), dpi=120, layout="constrained")
-    places = figure.subplot_mosaic(
+    panels = figure.subplot_mosaic(
         [["shares", "measured"], ["shares", "modelled"]], width_ratios=(2.3, 1.0)
     )
-    draw_shares(places["shares"], found)
-    draw_projection(places["measured"], "measured", angles, measured, COLOURS[0])
-    ours = cumulative(found["epidermis"])
-    draw_projection(places["modelled"], "HyLIoS S2, epidermis", *ours, COLOURS[1])
+    draw_shares(panels["shares"], counts)
+    draw_projection(panels["measured"], "measured", angles, measured, COLOURS[0])
+    ours = cumulative(counts["epidermis"])
+    draw_projection(panels["modelled"], "HyLIoS S2, epidermis", *ours, COLOURS[1])
     figure.suptitle("6.5  Light behind the epidermis at 302 nm, normal incidence")
     write_figure(figure, folder / "6.5.png")
-    return rows(found)
+    return rows(counts)
 
 
 def sound(tissue: str) -> tuple[np.ndarray, np.ndarray]:
@@ -161,48 +161,48 @@ def sound(tissue: str) -> tuple[np.ndarray, np.ndarray]:
     return goniometry()["angle_deg"][kept], goniometry()[f"{tissue}_302"][kept]
 
 
-def draw_shares(place: Axes, found: Mapping[str, np.ndarray]) -> None:
+def draw_shares(panel: Axes, counts: Mapping[str, np.ndarray]) -> None:
     """Cumulative shares, measured and of each sample."""
     whole = dict(zip(goniometry()["angle_deg"], goniometry()["epidermis_302"], strict=True))
-    place.plot(*sound("epidermis"), "ko-", ms=4, lw=1.0, label="measured, epidermis")
-    place.plot(SUSPECT, whole[SUSPECT], "ko", ms=5, mfc="white", label="measured, suspect value")
+    panel.plot(*sound("epidermis"), "ko-", ms=4, lw=1.0, label="measured, epidermis")
+    panel.plot(SUSPECT, whole[SUSPECT], "ko", ms=5, mfc="white", label="measured, suspect value")
     styles = ("-", "--", "-.", ":", (0, (1, 1)))
     for name, colour, style in zip(SHOWN, COLOURS[1:], styles, strict=True):
-        place.plot(*cumulative(found[name]), color=colour, ls=style, lw=1.5, label=f"S2, {name}")
-    place.set(
+        panel.plot(*cumulative(counts[name]), color=colour, ls=style, lw=1.5, label=f"S2, {name}")
+    panel.set(
         xlabel="angle from the incident direction (degrees)",
         ylabel="share of the transmitted light within the angle (%)",
         xlim=(0.0, 90.0),
         ylim=(0.0, 102.0),
     )
-    place.grid(alpha=0.25)
-    place.legend(fontsize=8, loc="lower right")
+    panel.grid(alpha=0.25)
+    panel.legend(fontsize=8, loc="lower right")
 
 
 def draw_projection(
-    place: Axes, title: str, angles: np.ndarray, within: np.ndarray, colour: str
+    panel: Axes, title: str, angles: np.ndarray, within: np.ndarray, colour: str
 ) -> None:
     """Directions drawn from a cumulative share, seen along the incident direction."""
     random = np.random.default_rng(1)
     polar = np.radians(np.interp(100.0 * random.random(DOTS), within, angles))
     azimuth = 2.0 * np.pi * random.random(DOTS)
-    place.plot(
+    panel.plot(
         np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), ".", ms=1.2, color=colour
     )
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     for ring in (30.0, 60.0, 90.0):
         size = np.sin(np.radians(ring))
-        place.plot(size * np.cos(turn), size * np.sin(turn), color="grey", lw=0.6)
-    place.text(0.0, -1.15, "rings at 30°, 60°, 90°", fontsize=8, ha="center", color="grey")
-    place.set(aspect="equal", xlim=(-1.05, 1.05), ylim=(-1.2, 1.05))
-    place.set_title(title, fontsize=9)
-    place.set_axis_off()
+        panel.plot(size * np.cos(turn), size * np.sin(turn), color="grey", lw=0.6)
+    panel.text(0.0, -1.15, "rings at 30°, 60°, 90°", fontsize=8, ha="center", color="grey")
+    panel.set(aspect="equal", xlim=(-1.05, 1.05), ylim=(-1.2, 1.05))
+    panel.set_title(title, fontsize=9)
+    panel.set_axis_off()
 
 
-def rows(found: Mapping[str, np.ndarray]) -> list[Row]:
+def rows(results: Mapping[str, np.ndarray]) -> list[Row]:
     """RMS difference in percentage points from the measured shares, and medians."""
     result = []
-    for name, counts in found.items():
+    for name, counts in results.items():
         angles, measured = sound("stratum_corneum" if name == "stratum corneum" else "epidermis")
         off = (at(counts, angles) - measured)[1:]
         middle = median(*cumulative(counts))

@@ -40,11 +40,11 @@ VALLEYS = {
 
 def tasks(effort: Effort) -> dict[str, Task]:
     """Both curves without noise, and some wavelengths of them by random walk."""
-    found = {"people": Task(lambda tick: effort.people, 0)}
+    work = {"people": Task(lambda tick: effort.people, 0)}
     for name, angle in ANGLES.items():
-        found[name] = noise_free(SPECIMENS[name], RANGE, angle)
-        found[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, angle, effort)
-    return found
+        work[name] = noise_free(SPECIMENS[name], RANGE, angle)
+        work[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, angle, effort)
+    return work
 
 
 def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
@@ -53,17 +53,17 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     curves = {name: curve for name, curve in results.items() if isinstance(curve, Curve)}
     domain = (RANGE[0], RANGE[-1])
     figure, axes = sheet(12.0, 4.6, columns=2, sharey=True)
-    for place, (name, angle) in zip(axes[0], ANGLES.items(), strict=True):
+    for panel, (name, angle) in zip(axes[0], ANGLES.items(), strict=True):
         if people is not None and name == "S3":
             low, middle, high = people.band(RANGE)
             label = f"{len(people.names)} people: 10 to 90 %"
-            place.fill_between(RANGE, low, high, color="grey", alpha=0.25, lw=0, label=label)
-            place.plot(RANGE, middle, color="grey", lw=1.0, ls=":", label="their median")
-        plot(place, {f"HyLIoS {name}": curves[name]}, domain)
-        points(place, [curves[f"{name} walked"]], domain)
-        reflectance_axes(place, *domain, f"{name}, incidence {angle:g} degrees")
-        place.set_ylim(bottom=0.0)
-        place.legend(fontsize=8)
+            panel.fill_between(RANGE, low, high, color="grey", alpha=0.25, lw=0, label=label)
+            panel.plot(RANGE, middle, color="grey", lw=1.0, ls=":", label="their median")
+        plot(panel, {f"HyLIoS {name}": curves[name]}, domain)
+        points(panel, [curves[f"{name} walked"]], domain)
+        reflectance_axes(panel, *domain, f"{name}, incidence {angle:g} degrees")
+        panel.set_ylim(bottom=0.0)
+        panel.legend(fontsize=8)
     axes[0, 1].set_ylabel("")
     figure.suptitle("6.6  Lightly and darkly pigmented skin; points: by random walk")
     write_figure(figure, folder / "6.6.png")
@@ -131,11 +131,11 @@ def people_rows(curves: Mapping[str, Curve], people: People | None) -> list[Row]
     if people is None:
         return []
     low, middle, high = people.band(RANGE)
-    found, rows = curves["S3"].reflectance, []
+    reflectance, rows = curves["S3"].reflectance, []
     for name, ends in {**REGIONS, "whole": (RANGE[0], RANGE[-1])}.items():
         inside = (RANGE >= ends[0]) & (RANGE <= ends[1])
-        off = (found - middle)[inside]
-        within = np.mean(((found >= low) & (found <= high))[inside])
+        off = (reflectance - middle)[inside]
+        within = np.mean(((reflectance >= low) & (reflectance <= high))[inside])
         rows.append(
             Row(
                 "6.6",

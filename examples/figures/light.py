@@ -75,8 +75,8 @@ class Task:
 
 def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
     """What so many rays per wavelength would give: each returns or does not."""
-    found = np.random.default_rng(seed).binomial(rays, np.clip(reflectance, 0.0, 1.0))
-    return found / rays
+    returned = np.random.default_rng(seed).binomial(rays, np.clip(reflectance, 0.0, 1.0))
+    return returned / rays
 
 
 def farthest(exact: Curve, walked: Curve) -> float:
@@ -87,7 +87,7 @@ def farthest(exact: Curve, walked: Curve) -> float:
 
 def exact(stacks: Sequence[Stack], angle: float) -> np.ndarray:
     """Reflectance (W,) of stacks without noise, by adding their layers."""
-    return solve([with_survival(each) for each in stacks], angle).total
+    return solve([with_survival(stack) for stack in stacks], angle).total
 
 
 def noise_free(
@@ -97,16 +97,18 @@ def noise_free(
     readings: Mapping[str, str] | None = None,
 ) -> Task:
     """The task of a curve without noise, with other readings of the thesis where given."""
-    asked, model = np.asarray(wavelengths, dtype=float), Model(readings=readings or {})
+    grid, model = np.asarray(wavelengths, dtype=float), Model(readings=readings or {})
 
     def work(tick: Tick) -> Curve:
-        found = []
-        for part in np.split(asked, range(BATCH, asked.size, BATCH)):
-            found.append(exact([Stack.of(specimen, each, model) for each in part], angle))
+        parts = []
+        for part in np.split(grid, range(BATCH, grid.size, BATCH)):
+            parts.append(
+                exact([Stack.of(specimen, wavelength, model) for wavelength in part], angle)
+            )
             tick(part.size)
-        return Curve(asked, np.concatenate(found), np.zeros(asked.size), 0)
+        return Curve(grid, np.concatenate(parts), np.zeros(grid.size), 0)
 
-    return Task(work, asked.size)
+    return Task(work, grid.size)
 
 
 def walked(
@@ -116,18 +118,18 @@ def walked(
     effort: Effort,
 ) -> Task:
     """The task of a curve by random walk."""
-    asked = np.asarray(wavelengths, dtype=float)
+    grid = np.asarray(wavelengths, dtype=float)
 
     def work(tick: Tick) -> Curve:
-        found = spectrum(
+        light = spectrum(
             specimen,
-            asked,
+            grid,
             angle=angle,
             rays=effort.rays,
             seed=effort.seed,
             threads=effort.threads,
             progress=lambda rays: tick(rays / RAYS_AS_LONG),
         )
-        return Curve(asked, found.total, found.standard_error, effort.rays)
+        return Curve(grid, light.total, light.standard_error, effort.rays)
 
-    return Task(work, asked.size * effort.rays / RAYS_AS_LONG)
+    return Task(work, grid.size * effort.rays / RAYS_AS_LONG)

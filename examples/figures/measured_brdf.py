@@ -54,7 +54,7 @@ def forehead(incidence: float, polar: np.ndarray, azimuth: np.ndarray) -> np.nda
     (C_xy (u_x v_x + u_y v_y) + C_z u_z v_z)^n, where that is positive, with u and v pointing to
     the light and to the eye.
     """
-    theta, beyond, turn = (np.radians(each) for each in (incidence, polar, azimuth))
+    theta, beyond, turn = (np.radians(angle) for angle in (incidence, polar, azimuth))
     along = -np.sin(theta) * np.sin(beyond) * np.cos(turn)
     across = np.cos(theta) * np.cos(beyond)
     base = ALONG * along[:, None, None] + ACROSS * across[:, None, None]

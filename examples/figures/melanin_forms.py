@@ -65,12 +65,12 @@ def shown() -> dict[str, Specimen]:
 
 def tasks(effort: Effort) -> dict[str, Task]:
     """Each curve without noise, some of it by random walk, and with other readings."""
-    found = {}
+    work = {}
     for name, skin in shown().items():
-        found[name] = noise_free(skin, WAVELENGTHS, ANGLE)
-        found[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
-        found[f"{name} other"] = noise_free(skin, WAVELENGTHS, ANGLE, OTHER_READINGS)
-    return found
+        work[name] = noise_free(skin, WAVELENGTHS, ANGLE)
+        work[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
+        work[f"{name} other"] = noise_free(skin, WAVELENGTHS, ANGLE, OTHER_READINGS)
+    return work
 
 
 def draw(results: Mapping[str, Curve], folder: Path) -> list[Row]:
@@ -119,13 +119,13 @@ def draw_cases(results: Mapping[str, Curve], case: str, number: str, folder: Pat
     """Figures C.1 and C.3: a case against its colloidal one, S3 and S4."""
     figure, axes = sheet(12.0, 4.4, columns=2)
     domain = (WAVELENGTHS[0], WAVELENGTHS[-1])
-    for place, name in zip(axes.flat, MELANOSOMES, strict=True):
+    for panel, name in zip(axes.flat, MELANOSOMES, strict=True):
         test, reference = f"{name} {case}", f"{name} {case} colloidal"
-        plot(place, {case: results[test], "colloidal": results[reference]}, domain)
-        points(place, [results[f"{test} walked"], results[f"{reference} walked"]], domain)
-        place.axvspan(*CONSIDERED, color="grey", alpha=0.12)
-        reflectance_axes(place, *domain, f"{name} (grey: 600 to 900 nm)")
-        place.legend()
+        plot(panel, {case: results[test], "colloidal": results[reference]}, domain)
+        points(panel, [results[f"{test} walked"], results[f"{reference} walked"]], domain)
+        panel.axvspan(*CONSIDERED, color="grey", alpha=0.12)
+        reflectance_axes(panel, *domain, f"{name} (grey: 600 to 900 nm)")
+        panel.legend()
     figure.suptitle(f"{number}  {case.capitalize()} and colloidal case, incidence 10 degrees")
     write_figure(figure, folder / f"{number}.png")
 
@@ -144,9 +144,9 @@ def draw_errors(results: Mapping[str, Curve], case: str, number: str, folder: Pa
 def draw_variation(results: Mapping[str, Curve], path: Path) -> None:
     """Figure C.5: what lies between basal and dispersed melanosomes in S4."""
     figure, axes = sheet(8.0, 4.4)
-    place, domain = axes[0, 0], (WAVELENGTHS[0], WAVELENGTHS[-1])
+    panel, domain = axes[0, 0], (WAVELENGTHS[0], WAVELENGTHS[-1])
     basal, dispersed = results["S4 baseline"], results["S4 dispersion"]
-    place.vlines(
+    panel.vlines(
         WAVELENGTHS,
         dispersed.reflectance,
         basal.reflectance,
@@ -154,16 +154,16 @@ def draw_variation(results: Mapping[str, Curve], path: Path) -> None:
         lw=2.0,
         label="from dispersed to basal melanosomes",
     )
-    plot(place, {"colloidal, as dispersed": results["S4 dispersion colloidal"]}, domain)
-    place.plot(
+    plot(panel, {"colloidal, as dispersed": results["S4 dispersion colloidal"]}, domain)
+    panel.plot(
         WAVELENGTHS,
         results["S4 baseline colloidal"].reflectance,
         color="grey",
         ls=":",
         label="colloidal, as basal",
     )
-    reflectance_axes(place, *domain, "C.5  Melanosomes' place in S4, incidence 10 degrees")
-    place.legend()
+    reflectance_axes(panel, *domain, "C.5  Melanosomes' place in S4, incidence 10 degrees")
+    panel.legend()
     write_figure(figure, path)
 
 
@@ -209,14 +209,14 @@ def case_rows(results: Mapping[str, Curve], readings: str = "") -> list[Row]:
     for number, case in (("C.1", "baseline"), ("C.3", "dispersion")):
         for name in MELANOSOMES:
             printed = "lower" if (name, case) == ("S4", "dispersion") else "higher"
-            found = difference(results, name, case)
+            change = difference(results, name, case)
             rows.append(
                 claim(
                     number,
                     f"{name} {case} minus colloidal, mean of 600 to 900 nm{readings}",
                     "slightly lower" if printed == "lower" else printed,
-                    f"{found:+.4f}",
-                    (found < 0.0) == (printed == "lower"),
+                    f"{change:+.4f}",
+                    (change < 0.0) == (printed == "lower"),
                 )
             )
     for number, case, larger in (
@@ -224,14 +224,14 @@ def case_rows(results: Mapping[str, Curve], readings: str = "") -> list[Row]:
         ("C.4", "dispersion", {"UV": "S3", "Visible": "S3", "NIR": "S3", "VNIR": "S3"}),
     ):
         for region, name in larger.items():
-            errors = {each: rmse(results, each, case, region) for each in MELANOSOMES}
+            errors = {skin: rmse(results, skin, case, region) for skin in MELANOSOMES}
             rows.append(
                 claim(
                     number,
                     f"larger RMSE in {region}{readings}",
                     name,
-                    ", ".join(f"{each} {value:.4f}" for each, value in errors.items()),
-                    max(errors, key=lambda each: errors[each]) == name,
+                    ", ".join(f"{skin} {value:.4f}" for skin, value in errors.items()),
+                    max(errors, key=lambda skin: errors[skin]) == name,
                 )
             )
     return rows

@@ -97,15 +97,15 @@ def tasks(effort: Effort) -> dict[str, Task]:
     people = effort.people
     if people is None:
         return {}
-    every = {
+    jobs = {
         region: [(row, region, VARIANTS["as fitted"]) for row in people.at(wavelengths)]
         for region, wavelengths in REGIONS.items()
     }
     middle = np.median(people.at(REGIONS["whole range"]), axis=0)
-    every["variants"] = [(middle, "whole range", each) for each in VARIANTS.values()]
+    jobs["variants"] = [(middle, "whole range", variant) for variant in VARIANTS.values()]
     return {
         "people": Task(lambda tick: people, 0),
-        **{name: _together(each, effort.threads) for name, each in every.items()},
+        **{name: _together(group, effort.threads) for name, group in jobs.items()},
     }
 
 
@@ -114,18 +114,18 @@ def _together(jobs: Sequence[tuple[np.ndarray, str, Variant]], processes: int | 
     sizes = [SIZE * REGIONS[region].size for _, region, _ in jobs]
 
     def work(tick):
-        found = []
+        results = []
         context = get_context("spawn")
         with ProcessPoolExecutor(processes, context, _leave_interrupts) as pool:
             try:
                 fits = pool.map(fitted, *zip(*jobs, strict=True))
                 for fit, size in zip(fits, sizes, strict=True):
-                    found.append(fit)
+                    results.append(fit)
                     tick(size)
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
-        return found
+        return results
 
     return Task(work, sum(sizes))
 
@@ -142,43 +142,43 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
     people = cast(People, results["people"])
     fits = {region: cast(list[Fit], results[region]) for region in REGIONS}
     figure, axes = sheet(12.0, 7.5, columns=2, rows=2)
-    for row, (region, found) in zip(axes, fits.items(), strict=True):
-        _draw_examples(row[0], region, found, people)
-        _draw_residuals(row[1], region, found)
+    for row, (region, of_region) in zip(axes, fits.items(), strict=True):
+        _draw_examples(row[0], region, of_region, people)
+        _draw_residuals(row[1], region, of_region)
     figure.suptitle(f"{len(people.names)} measured people, each fitted by a specimen")
     write_figure(figure, folder / "people.png")
     variants = cast(list[Fit], results["variants"])
     return [
-        *(row for region, found in fits.items() for row in region_rows(region, found)),
+        *(row for region in REGIONS for row in region_rows(region, fits[region])),
         *variant_rows(dict(zip(VARIANTS, variants, strict=True))),
     ]
 
 
-def errors(found: Sequence[Fit]) -> np.ndarray:
+def errors(fits: Sequence[Fit]) -> np.ndarray:
     """Root mean square error of each fit."""
-    return np.array([each.rmse for each in found])
+    return np.array([fit.rmse for fit in fits])
 
 
-def _draw_examples(axes, region: str, found: Sequence[Fit], people: People) -> None:
+def _draw_examples(axes, region: str, fits: Sequence[Fit], people: People) -> None:
     """The best, the middle and the worst fit with what was measured."""
-    order = np.argsort(errors(found))
-    for colour, (word, place) in zip(
+    order = np.argsort(errors(fits))
+    for colour, (word, rank) in zip(
         COLOURS, {"best": 0, "middle": len(order) // 2, "worst": -1}.items(), strict=False
     ):
-        each = found[order[place]]
-        label = f"{word}: {people.names[order[place]]}, RMSE {each.rmse:.4f}"
+        fit = fits[order[rank]]
+        label = f"{word}: {people.names[order[rank]]}, RMSE {fit.rmse:.4f}"
         wavelengths = REGIONS[region]
-        axes.plot(wavelengths, each.observed, color=colour, lw=1.3, label=label)
-        axes.plot(wavelengths, each.observed - each.residual, ".", color=colour, markersize=4)
+        axes.plot(wavelengths, fit.observed, color=colour, lw=1.3, label=label)
+        axes.plot(wavelengths, fit.observed - fit.residual, ".", color=colour, markersize=4)
     reflectance_axes(axes, *REGIONS[region][[0, -1]], f"{region}; points: measured")
     axes.set_ylim(bottom=0.0)
     axes.legend(fontsize=8)
 
 
-def _draw_residuals(axes, region: str, found: Sequence[Fit]) -> None:
+def _draw_residuals(axes, region: str, fits: Sequence[Fit]) -> None:
     """What the fits leave."""
-    left = np.array([each.residual for each in found])
-    low, middle, high = np.quantile(left, [0.1, 0.5, 0.9], axis=0)
+    residuals = np.array([fit.residual for fit in fits])
+    low, middle, high = np.quantile(residuals, [0.1, 0.5, 0.9], axis=0)
     axes.fill_between(REGIONS[region], low, high, color="grey", alpha=0.3, lw=0, label="10 to 90 %")
     axes.plot(REGIONS[region], middle, color="black", label="median")
     axes.axhline(0.0, color="black", lw=0.6)
@@ -187,18 +187,18 @@ def _draw_residuals(axes, region: str, found: Sequence[Fit]) -> None:
     axes.legend(fontsize=8)
 
 
-def region_rows(region: str, found: Sequence[Fit]) -> list[Row]:
+def region_rows(region: str, fits: Sequence[Fit]) -> list[Row]:
     """How near the fits come, and what they say of people."""
-    off, wavelengths = errors(found), REGIONS[region]
+    off, wavelengths = errors(fits), REGIONS[region]
     ends = f"{wavelengths[0]:.0f} to {wavelengths[-1]:.0f} nm"
     left = {
-        each.name: float(np.median([fit.free[number].left for fit in found]))
-        for number, each in enumerate(found[0].free)
+        parameter.name: float(np.median([fit.free[number].left for fit in fits]))
+        for number, parameter in enumerate(fits[0].free)
     }
     return [
         Row(
             "people",
-            f"median RMSE of {len(found)} fits, {ends}, {wavelengths.size} wavelengths",
+            f"median RMSE of {len(fits)} fits, {ends}, {wavelengths.size} wavelengths",
             "",
             f"{np.median(off):.4f} ({off.min():.4f} to {off.max():.4f})",
             aim=f"below {AIMS[region]:.3f}",
@@ -213,10 +213,10 @@ def region_rows(region: str, found: Sequence[Fit]) -> list[Row]:
     ]
 
 
-def variant_rows(found: Mapping[str, Fit]) -> list[Row]:
+def variant_rows(fits: Mapping[str, Fit]) -> list[Row]:
     """What other models of the same median person would leave."""
     rows = []
-    for name, fit in found.items():
+    for name, fit in fits.items():
         by_region = {
             "UV": (250.0, 400.0),
             "visible": (400.0, 700.0),

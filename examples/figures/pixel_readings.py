@@ -30,11 +30,11 @@ def sun_distance(white: render.Light, stage: Stage, camera: np.ndarray) -> np.nd
     """
     view = camera - white.position
     view /= np.linalg.norm(view, axis=-1, keepdims=True)
-    seen = np.sum(view * white.normal, axis=-1) > FACING
-    seen &= np.linalg.norm(white.position - np.array(stage.centre), axis=-1) < stage.reach
-    points, normals = (each[seen].astype(float) for each in (white.position, white.normal))
-    distance = np.full(seen.shape, np.nan)
-    distance[seen] = swimsuit.distance_to_edge(stage.subject.cloth, points, normals)
+    facing = np.sum(view * white.normal, axis=-1) > FACING
+    facing &= np.linalg.norm(white.position - np.array(stage.centre), axis=-1) < stage.reach
+    points, normals = (values[facing].astype(float) for values in (white.position, white.normal))
+    distance = np.full(facing.shape, np.nan)
+    distance[facing] = swimsuit.distance_to_edge(stage.subject.cloth, points, normals)
     return distance
 
 
@@ -43,33 +43,33 @@ def regions(white: render.Light, distance: np.ndarray, stage: Stage) -> list[np.
 
     Well lit, and well away from the edge between them.
     """
-    seen = np.isfinite(distance)
-    part = np.zeros(seen.shape, int)
-    part[seen] = stage.part(white.position[seen].astype(float))
+    readable = np.isfinite(distance)
+    part = np.zeros(readable.shape, int)
+    part[readable] = stage.part(white.position[readable].astype(float))
     bright = white.scattered.mean(axis=-1)
-    lit = seen & (bright > 0.5 * np.median(bright[seen])) if seen.any() else seen
-    sunned = [lit & (part == each) & (distance > CLEAR_OF_EDGE) for each in range(stage.parts)]
+    lit = readable & (bright > 0.5 * np.median(bright[readable])) if readable.any() else readable
+    sunned = [lit & (part == number) & (distance > CLEAR_OF_EDGE) for number in range(stage.parts)]
     return [*sunned, lit & (distance < -CLEAR_OF_EDGE)]
 
 
-def readings(light: render.Light, white: render.Light, where: Sequence[np.ndarray]) -> np.ndarray:
+def readings(light: render.Light, white: render.Light, pixels: Sequence[np.ndarray]) -> np.ndarray:
     """Mean light out of the skin as a share of a white diffuser's, linear Rec.709 (regions, 3).
 
     Not a number where nothing of a region is in the picture.
     """
     return np.array(
         [
-            light.scattered[each].mean(axis=0) / white.scattered[each].mean(axis=0)
-            if each.any()
+            light.scattered[region].mean(axis=0) / white.scattered[region].mean(axis=0)
+            if region.any()
             else np.full(3, np.nan)
-            for each in where
+            for region in pixels
         ]
     )
 
 
-def shine(taken: Taken, where: Sequence[np.ndarray]) -> np.ndarray:
+def shine(taken: Taken, pixels: Sequence[np.ndarray]) -> np.ndarray:
     """What the surface reflects in the brightest hundredth of each region (regions,)."""
     reflected = (taken.picture - taken.light.scattered).mean(axis=-1)
     return np.array(
-        [np.percentile(reflected[each], 99.0) if each.any() else np.nan for each in where]
+        [np.percentile(reflected[region], 99.0) if region.any() else np.nan for region in pixels]
     )

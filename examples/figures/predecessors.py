@@ -49,16 +49,16 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """The models' curves, and S1 and S2 by random walk at some wavelengths."""
     multipole = donner_jensen.reflectance(donner_jensen.NCSU_117, WAVELENGTHS, ANGLE)
     without_noise = Curve(WAVELENGTHS, multipole, np.zeros(WAVELENGTHS.size), 0)
-    found = {
+    work = {
         "DJ06 multipole": Task(lambda tick: without_noise, 0),
         "DJ06 walked": Task(lambda tick: walked_dj06(effort, tick), work_size(effort)),
         "BioSpec": Task(lambda tick: walked_biospec(effort, tick), work_size(effort)),
         "people": Task(lambda tick: effort.people, 0),
     }
     for name in SHOWN:
-        found[name] = noise_free(SPECIMENS[name], WAVELENGTHS, ANGLE)
-        found[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, ANGLE, effort)
-    return found
+        work[name] = noise_free(SPECIMENS[name], WAVELENGTHS, ANGLE)
+        work[f"{name} walked"] = walked(SPECIMENS[name], CHECKED, ANGLE, effort)
+    return work
 
 
 def work_size(effort: Effort) -> float:
@@ -87,14 +87,14 @@ def walked_dj06(effort: Effort, tick: Tick) -> Curve:
 
 def walked_biospec(effort: Effort, tick: Tick) -> Curve:
     """BioSpec."""
-    found = np.empty(WAVELENGTHS.size)
+    reflectance = np.empty(WAVELENGTHS.size)
     for place, wavelength in enumerate(WAVELENGTHS):
-        found[place] = biospec.reflectance(
+        reflectance[place] = biospec.reflectance(
             biospec.NCSU_113, wavelength, ANGLE, effort.rays, effort.seed
         )[0]
         tick(effort.rays / RAYS_AS_LONG)
-    error = share_error(found * effort.rays, effort.rays)
-    return Curve(WAVELENGTHS, found, error, effort.rays)
+    error = share_error(reflectance * effort.rays, effort.rays)
+    return Curve(WAVELENGTHS, reflectance, error, effort.rays)
 
 
 def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
@@ -185,10 +185,10 @@ def swatches(
     curves: Mapping[str, Curve], people: People | None, models: tuple[str, ...]
 ) -> dict[str, np.ndarray]:
     """Linear Rec.709 (3,) of each model, and of the people's median spectrum where given."""
-    found = {name: colour(curves[name].reflectance) for name in models}
+    colours = {name: colour(curves[name].reflectance) for name in models}
     if people is not None:
-        found["median of people"] = colour(people.band(WAVELENGTHS)[1])
-    return found
+        colours["median of people"] = colour(people.band(WAVELENGTHS)[1])
+    return colours
 
 
 def colour(reflectance: np.ndarray) -> np.ndarray:
@@ -233,9 +233,9 @@ def people_rows(curves: Mapping[str, Curve], people: People | None) -> list[Row]
     low, middle, high = people.band(WAVELENGTHS)
     rows = []
     for name in ("S1", "S2", "DJ06 multipole", "DJ06 walked", "BioSpec"):
-        found = curves[name].reflectance
-        inside = np.mean((found >= low) & (found <= high))
-        rmse = np.sqrt(np.mean((found - middle) ** 2))
+        reflectance = curves[name].reflectance
+        inside = np.mean((reflectance >= low) & (reflectance <= high))
+        rmse = np.sqrt(np.mean((reflectance - middle) ** 2))
         rows.append(
             Row(
                 "6.2",
@@ -254,9 +254,9 @@ def colour_rows(curves: Mapping[str, Curve], people: People | None) -> list[Row]
     rows = []
     for number, (reference, models, _) in SIDES.items():
         colours = swatches(curves, people, models)
-        for name, found in colours.items():
+        for name, swatch_colour in colours.items():
             if name != reference:
-                apart = float(difference(found, colours[reference]))
+                apart = float(difference(swatch_colour, colours[reference]))
                 what = f"{name} from HyLIoS {reference}, CIEDE2000"
                 rows.append(Row(number, what, "swatches, no number", f"{apart:.1f}"))
     return rows

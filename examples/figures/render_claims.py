@@ -38,9 +38,11 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
     """How near the renders come to the tables, and those to the light model."""
     rows = []
     for figure, results in by_figure.items():
-        visible = [each for each in results if each.exact is not None]
-        off = np.concatenate([lab(each.readings) - lab(each.predicted) for each in visible])[:, 0]
-        apart = np.concatenate([difference(each.predicted, each.exact) for each in visible])
+        visible = [result for result in results if result.exact is not None]
+        off = np.concatenate([lab(result.readings) - lab(result.predicted) for result in visible])[
+            :, 0
+        ]
+        apart = np.concatenate([difference(result.predicted, result.exact) for result in visible])
         rows.append(
             report.Row(
                 figure,
@@ -53,7 +55,7 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
                 bool(np.nanmax(np.abs(off)) <= NEAR),
             )
         )
-        others = sorted({each.subject for each in results if each.subject == "Suzanne"})
+        others = sorted({result.subject for result in results if result.subject == "Suzanne"})
         if others:
             rows.append(report.Row(figure, "subject", "a woman", "Suzanne stands in for her"))
     return rows
@@ -61,25 +63,26 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
 
 def schedules(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.24."""
-    ordered = sorted(results, key=lambda each: each.shot.day)
+    ordered = sorted(results, key=lambda result: result.shot.day)
     panels = [
         Panel(
-            each.picture,
-            f"day {each.shot.day:g}",
-            shots.PATCHES if each.shot.window == shots.WHOLE else None,
+            result.picture,
+            f"day {result.shot.day:g}",
+            shots.PATCHES if result.shot.window == shots.WHOLE else None,
         )
-        for each in ordered
+        for result in ordered
     ]
-    later = [each for each in ordered if each.shot.day > 0]
-    dark = np.array([each.lightness for each in later])
+    later = [result for result in ordered if result.shot.day > 0]
+    dark = np.array([result.lightness for result in later])
     rows = [
         report.claim(
             "6.24",
             "each stronger schedule leaves a darker patch, and all are darker than beside them",
             "so drawn",
             "; ".join(
-                f"day {each.shot.day:g}: " + " ".join(f"{value:.1f}" for value in each.lightness)
-                for each in later
+                f"day {result.shot.day:g}: "
+                + " ".join(f"{value:.1f}" for value in result.lightness)
+                for result in later
             )
             + " (L* of upper, middle, lower, beside)",
             bool(np.all(np.diff(dark[:, [3, 0, 1, 2]], axis=1) < 0.0)),
@@ -141,11 +144,11 @@ def matched(results: Sequence[Result]) -> tuple[Panels, Rows]:
 
 def _three_skins(results: Sequence[Result]) -> tuple[Panels, dict[str, np.ndarray]]:
     panels = []
-    for each in results:
-        name = each.shot.table
-        caption = f"{name} pigmentation\n{_totals(each.shot.schedules)} SED in all"
-        panels.append(Panel(each.picture, caption))
-    return [panels], {each.shot.table: each.contrast for each in results}
+    for result in results:
+        name = result.shot.table
+        caption = f"{name} pigmentation\n{_totals(result.shot.schedules)} SED in all"
+        panels.append(Panel(result.picture, caption))
+    return [panels], {result.shot.table: result.contrast for result in results}
 
 
 def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
@@ -159,21 +162,21 @@ def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
 def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.27."""
     panels = [
-        Panel(each.picture, "day 0, sunscreen on (outlined)", outlined=each.sun_distance)
-        if each.shot.gloss
-        else Panel(each.picture, f"day {each.shot.day:g}")
-        for each in results
+        Panel(result.picture, "day 0, sunscreen on (outlined)", outlined=result.sun_distance)
+        if result.shot.gloss
+        else Panel(result.picture, f"day {result.shot.day:g}")
+        for result in results
     ]
-    contrasts = {each.shot.day: float(each.contrast[0]) for each in results}
+    contrasts = {result.shot.day: float(result.contrast[0]) for result in results}
     return [panels], [
         report.claim(
             "6.27",
             "noticeably darker on day 4, significantly on day 15",
             "so it is",
             ", ".join(
-                f"day {day:g}: L* {each.lightness[0]:.1f}, CIEDE2000 {contrasts[day]:.1f} "
+                f"day {day:g}: L* {result.lightness[0]:.1f}, CIEDE2000 {contrasts[day]:.1f} "
                 "from under the sunscreen"
-                for day, each in zip(contrasts, results, strict=True)
+                for day, result in zip(contrasts, results, strict=True)
             ),
             bool(1.0 < contrasts[4] < contrasts[15]),
         ),
@@ -196,8 +199,8 @@ def _filling() -> report.Row:
 
 def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.28."""
-    seen = {each.shot.day: each for each in results if each.shot.table != UV}
-    uv = {each.shot.day: each for each in results if each.shot.table == UV}
+    seen = {result.shot.day: result for result in results if result.shot.table != UV}
+    uv = {result.shot.day: result for result in results if result.shot.table == UV}
     before, after = shots.FACE_DAYS
     said = {before: "before, sunscreen on one half", after: f"{after} days after"}
     panels = [
@@ -208,7 +211,7 @@ def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
         for day in (before, after)
     ]
     bare, covered = seen[before].shine
-    visible, at_365 = (_luminance(found[after].readings) for found in (seen, uv))
+    visible, at_365 = (_luminance(by_day[after].readings) for by_day in (seen, uv))
     return panels, [
         report.claim(
             "6.28",
@@ -230,7 +233,11 @@ def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
 def mild_beside_strong(back: Sequence[Result], faces: Sequence[Result]) -> report.Row:
     """Figures 6.27 and 6.28 on day 15."""
     high, mild = (
-        next(each.contrast[0] for each in results if each.shot.day == 15 and each.shot.table != UV)
+        next(
+            result.contrast[0]
+            for result in results
+            if result.shot.day == 15 and result.shot.table != UV
+        )
         for results in (back, faces)
     )
     return report.claim(
@@ -253,17 +260,17 @@ def _luminance(linear: np.ndarray) -> np.ndarray:
 
 def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Figure 6.29."""
-    daily = [each for each in results if "small" in each.shot.name]
-    main = [each for each in results if "small" not in each.shot.name]
-    small = [Panel(each.picture, f"day {each.shot.day:g}") for each in daily]
+    daily = [result for result in results if "small" in result.shot.name]
+    main = [result for result in results if "small" not in result.shot.name]
+    small = [Panel(result.picture, f"day {result.shot.day:g}") for result in daily]
     weeks = [small[start : start + 10] for start in range(0, len(small), 10)]
-    lightness = np.array([each.lightness[0] for each in daily])
-    days = np.array([each.shot.day for each in daily])
+    lightness = np.array([result.lightness[0] for result in daily])
+    days = np.array([result.shot.day for result in daily])
     darkest, untanned = lightness.min(), daily[0].lightness[1]
     change = (untanned - lightness) / (untanned - darkest)
     peak = days[np.argmin(lightness)]
     broad = days[change > 0.9]
-    return [*weeks, [Panel(each.picture, f"day {each.shot.day:g}") for each in main]], [
+    return [*weeks, [Panel(result.picture, f"day {result.shot.day:g}") for result in main]], [
         report.claim(
             "6.29", "day of the darkest skin", "10", f"{peak:g}", bool(8.0 <= peak <= 12.0)
         ),

@@ -60,23 +60,23 @@ class Result:
 def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
     """What came of a shot, beside what the model says."""
     states = tanning_states(shot, skin)
-    with np.load(folder / f"{shot.name}.npz") as found:
+    with np.load(folder / f"{shot.name}.npz") as file:
         return Result(
             shot=shot,
-            picture=found["picture"],
-            readings=found["readings"],
+            picture=file["picture"],
+            readings=file["readings"],
             predicted=table.plane("subsurface_colour", states),
             exact=None if shot.table == UV else np.array([colour(skin, s) for s in states]),
-            shine=found["shine"],
-            sun_distance=found["sun_distance"],
-            subject=str(found["subject"]),
+            shine=file["shine"],
+            sun_distance=file["sun_distance"],
+            subject=str(file["subject"]),
         )
 
 
 def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:
     """States (parts + 1, 4) on the day of a shot: of each schedule, and without sun."""
-    every = (*shot.schedules, ())
-    return np.array([history(skin, each, shot.day).states[-1] for each in every])
+    schedules = (*shot.schedules, ())
+    return np.array([history(skin, schedule, shot.day).states[-1] for schedule in schedules])
 
 
 def colour(skin: Skin, state: np.ndarray) -> np.ndarray:

@@ -55,7 +55,7 @@ def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
     planes = {name: table.planes[name].copy() for name in ("subsurface_colour", "profile_width")}
     for knot in np.ndindex(*table.axes.shape):
         state = table.axes.knot_states()[knot]
-        found = walked(
+        light = walked(
             skin.at(state),
             np.array([UV_NM]),
             angle=8.0,
@@ -63,8 +63,8 @@ def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
             seed=effort.seed,
             threads=effort.threads,
         )
-        width = burley_width(DISTANCE_EDGES, found.exit_counts[0])
-        planes["subsurface_colour"][knot] = found.subsurface[0]
+        width = burley_width(DISTANCE_EDGES, light.exit_counts[0])
+        planes["subsurface_colour"][knot] = light.subsurface[0]
         planes["profile_width"][knot] = width
     return replace(table, planes={**table.planes, **planes})
 
@@ -143,9 +143,9 @@ def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], ti
 
 def draw(results: Mapping[str, Sequence[Result]], folder: Path) -> list[report.Row]:
     """Draw the figures; returns what they say."""
-    found = {each.shot.name: each for each in results["renders"]}
+    by_name = {result.shot.name: result for result in results["renders"]}
     by_figure = {
-        figure: [each for name, each in found.items() if name.startswith(figure)]
+        figure: [result for name, result in by_name.items() if name.startswith(figure)]
         for figure in FIGURES
     }
     rows = [*readings_rows(by_figure)]

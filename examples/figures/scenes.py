@@ -90,14 +90,14 @@ def take(shot: Shot, quality: render.Quality, scratch: Path) -> Taken:
 
 
 def shoot(
-    wanted: Sequence[Shot], found: Mapping[str, Stage], folder: Path, scale: float, samples: int
+    wanted: Sequence[Shot], by_name: Mapping[str, Stage], folder: Path, scale: float, samples: int
 ) -> Iterator[str]:
     """Render shots into FOLDER/NAME.npz, and give each name once its file is there."""
     scratch = folder / "scratch.exr"
     standing, obj = None, None
     whites: dict[tuple, render.Light] = {}
     for shot in wanted:
-        stage = found[shot.stage]
+        stage = by_name[shot.stage]
         quality = render.Quality(samples, max(1, round(scale * shot.percent)), "HIGH")
         if standing != (shot.stage, shot.table, shot.schedules):
             # A new scene even for a new tan only: with persistent data Cycles may render a former
@@ -128,12 +128,12 @@ def shoot(
     scratch.unlink(missing_ok=True)
 
 
-def main(asked: argparse.Namespace) -> None:
+def main(arguments: argparse.Namespace) -> None:
     """Render what is asked for, and print the name of each shot when it is done."""
-    found = stages(None if asked.stand_in else body_wheel())
+    by_name = stages(None if arguments.stand_in else body_wheel())
     blender_addon.register()
-    wanted = shots.named(asked.names)
-    for name in shoot(wanted, found, asked.folder, asked.scale, asked.samples):
+    wanted = shots.named(arguments.names)
+    for name in shoot(wanted, by_name, arguments.folder, arguments.scale, arguments.samples):
         print(f"{shots.DONE}{name}")
 
 

@@ -75,7 +75,7 @@ PAIRS = (
 def without(skin: Specimen, material: str) -> Specimen:
     """The specimen with a material's parameters at 0."""
     endings = MATERIALS[material].endings
-    names = [each.name for each in fields(Specimen) if each.name.endswith(endings)]
+    names = [field.name for field in fields(Specimen) if field.name.endswith(endings)]
     names = [name for name in names if name != "oxygenated_blood"]
     return with_values(skin, dict.fromkeys(names, 0.0), allow_unphysical=True)
 
@@ -84,12 +84,12 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """S3 and what is left of it, without noise, and some wavelengths by random walk."""
     start = SPECIMENS["S3"]
     skins = {"all": start, **{name: without(start, name) for name in MATERIALS}}
-    found = {}
+    work = {}
     for name, skin in skins.items():
-        found[name] = noise_free(skin, RANGE, ANGLE)
-        found[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
-    found["readings"] = dna.task()
-    return found
+        work[name] = noise_free(skin, RANGE, ANGLE)
+        work[f"{name} walked"] = walked(skin, CHECKED, ANGLE, effort)
+    work["readings"] = dna.task()
+    return work
 
 
 def index(base: np.ndarray, changed: np.ndarray) -> float:
@@ -150,9 +150,9 @@ def draw_pair(
     points(left, [results[f"{name} walked"] for name in ("all", *materials)], DOMAINS[domain])
     reflectance_axes(left, *DOMAINS[domain], "lines without noise, points by random walk")
     left.legend()
-    found = {name: indices(results["all"], results[name]) for name in materials}
-    labels = list(found[materials[0]])
-    series = {f"no {name}": list(found[name].values()) for name in materials}
+    index = {name: indices(results["all"], results[name]) for name in materials}
+    labels = list(index[materials[0]])
+    series = {f"no {name}": list(index[name].values()) for name in materials}
     bars(right, labels, series, "mean sensitivity index")
     for offset, name in zip((-0.2, 0.2), materials, strict=True):
         places = [labels.index(domain) + offset, labels.index("Hyper") + offset]
@@ -171,8 +171,8 @@ def draw_swatches(
     domain = MATERIALS[materials[0]].domain
     figure, axes = sheet(6.6, 2.7, columns=3)
     shown = {"S3": "all", **{f"no {name}": name for name in materials}}
-    for place, (title, name) in zip(axes[0], shown.items(), strict=True):
-        swatch(place, results[name], domain, title)
+    for panel, (title, name) in zip(axes[0], shown.items(), strict=True):
+        swatch(panel, results[name], domain, title)
     figure.suptitle(f"{number}  {domain}{'' if domain == 'visible' else ', pseudo colour'}")
     write_figure(figure, folder / f"{number}.png")
 
@@ -180,7 +180,7 @@ def draw_swatches(
 def draw_table(results: Mapping[str, Curve], path: Path) -> None:
     """Table 6.3 as a picture."""
     figure, axes = sheet(12.0, 4.4, columns=2)
-    for place, title in zip(axes[0], ("in the domain of the most impact", "Hyper"), strict=True):
+    for panel, title in zip(axes[0], ("in the domain of the most impact", "Hyper"), strict=True):
         printed, ours, with_noise = [], [], []
         for name, material in MATERIALS.items():
             domain = HYPER if title == "Hyper" else DOMAINS[material.domain]
@@ -193,8 +193,8 @@ def draw_table(results: Mapping[str, Curve], path: Path) -> None:
             f"ours with the noise of {THESIS_RAYS:,} rays": with_noise,
             "thesis": printed,
         }
-        bars(place, list(MATERIALS), series, "mean sensitivity index")
-        place.set_title(title)
+        bars(panel, list(MATERIALS), series, "mean sensitivity index")
+        panel.set_title(title)
     figure.suptitle("Table 6.3  Removal of a material from S3")
     write_figure(figure, path)
 

@@ -128,7 +128,7 @@ def shots() -> list[Shot]:
 
 def patches(figure: str, skin_name: str, factor: float) -> Shot:
     """Day 20 of the patches on a skin, with doses times a factor."""
-    schedules = tuple(scaled(each, factor) for each in SCHEDULES)
+    schedules = tuple(scaled(schedule, factor) for schedule in SCHEDULES)
     return Shot(f"{figure} {skin_name}", "patches", skin_name, schedules, 20.0)
 
 

@@ -33,8 +33,10 @@ def database() -> dict[str, Specimen]:
     together fill more than the dermis, which the thesis's own ranges do not exclude.
     """
     grid = list(product(TYPES, LEVELS, WATER, LIPIDS))
-    skins = [with_melanin(mixed(*each), each[0], level) for level in LEVELS for each in grid]
-    skins += [amelanotic(mixed(*each)) for each in grid]
+    skins = [
+        with_melanin(mixed(*mixture), mixture[0], level) for level in LEVELS for mixture in grid
+    ]
+    skins += [amelanotic(mixed(*mixture)) for mixture in grid]
     return {f"N{number}": replace(skin, name=f"N{number}") for number, skin in enumerate(skins, 1)}
 
 

@@ -142,20 +142,20 @@ def first_visible_dose(skin: Skin) -> float:
     def darker(number: int) -> float:
         return float(before - lab(colour(skin, states.states[number, peaks[number]]))[0])
 
-    found = bisect_left(range(TRIED.size), JUST_SEEN, key=darker)
-    return float(TRIED[found]) if found < TRIED.size else np.inf
+    first = bisect_left(range(TRIED.size), JUST_SEEN, key=darker)
+    return float(TRIED[first]) if first < TRIED.size else np.inf
 
 
 def spectra(skin: Skin, tick: Tick) -> dict[str, Curve]:
     """Reflectance of a skin untanned and at the peak of a tan of `COMPARED` MMD."""
     states = single_doses(skin, [COMPARED * skin.mmd], PEAK_DAYS)
-    found = {}
+    curves = {}
     for name, hour in (("untanned", 0), ("tanned", int(states.total[0].argmax()))):
         specimen = tanned(skin.specimen, states.melanin[0, hour], states.thickness[0, hour])
         total = spectrum(specimen, WAVELENGTHS).total
-        found[name] = Curve(WAVELENGTHS, total, np.zeros(WAVELENGTHS.size), 0)
+        curves[name] = Curve(WAVELENGTHS, total, np.zeros(WAVELENGTHS.size), 0)
         tick(WAVELENGTHS.size)
-    return found
+    return curves
 
 
 def spread(curves: Sequence[Curve], band: tuple[float, float]) -> float:
@@ -167,7 +167,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """Gains, first visible doses and spectra of the three skins."""
     work = {}
     for name, skin in SKINS.items():
-        multiples = [skin.mmd * each for each in MULTIPLES]
+        multiples = [skin.mmd * multiple for multiple in MULTIPLES]
         work[f"{name} multiples"] = _gain_task(skin, multiples)
         work[f"{name} equal"] = _gain_task(skin, EQUAL_DOSES)
         work[f"{name} first"] = Task(lambda tick, skin=skin: first_visible_dose(skin), 0.0)
@@ -204,18 +204,18 @@ def draw_claims(results: Mapping[str, Any], states: TanningHistory, path: Path) 
     """Kinetics, first visible change, gain and the ultraviolet."""
     figure, axes = sheet(13.0, 8.4, columns=2, rows=2)
     rising, by_dose, by_multiple, light = axes.flat
-    found = kinetics(states)
+    rising_and_fading = kinetics(states)
     rising.plot(states.hours / 24, 1.0 + 0.0 * states.total, color="grey", lw=0.8)
     rising.plot(states.hours / 24, states.total, color="black")
     for share in (0.5, 0.9):
-        rising.axhline(1.0 + share * found.rise, color="grey", ls=":", lw=0.8)
+        rising.axhline(1.0 + share * rising_and_fading.rise, color="grey", ls=":", lw=0.8)
     rising.set(xlabel="day", ylabel="melanin relative to the start", xlim=(0.0, KINETIC_DAYS))
     rising.set_title("30 SED at once, intermediate set; dotted: half and 90 % of the rise")
     for hue, (name, skin) in zip(COLOURS[1:], SKINS.items(), strict=False):
-        each = results[f"{name} multiples"]
+        gained = results[f"{name} multiples"]
         label = f"{name}: {skin.specimen.name}, MMD {skin.mmd:.1f} SED"
-        by_dose.plot(each.doses, each.difference, ".-", color=hue, label=label)
-        by_multiple.plot(each.doses / skin.mmd, each.difference, ".-", color=hue, label=label)
+        by_dose.plot(gained.doses, gained.difference, ".-", color=hue, label=label)
+        by_multiple.plot(gained.doses / skin.mmd, gained.difference, ".-", color=hue, label=label)
         for line, curve in zip(("--", "-"), results[f"{name} spectra"].values(), strict=True):
             light.plot(curve.wavelengths, curve.reflectance, color=hue, ls=line)
     by_dose.set(xlabel="dose (SED)", ylabel="CIEDE2000 of the peak", xscale="log")
@@ -224,9 +224,9 @@ def draw_claims(results: Mapping[str, Any], states: TanningHistory, path: Path) 
     reflectance_axes(light, 300.0, 700.0, f"untanned (dashed), tanned by {COMPARED:g} MMD")
     for band in (UV, GREEN_TO_RED):
         light.axvspan(*band, color="grey", alpha=0.12)
-    for place in axes.flat:
-        place.grid(alpha=0.25)
-        place.title.set_fontsize(10)
+    for panel in axes.flat:
+        panel.grid(alpha=0.25)
+        panel.title.set_fontsize(10)
     figure.suptitle(
         "What section 6.2 says of tans. Minimal doses by 3.1 and 3.2; the skin between S3 and S4 "
         "is ASSUMED",
@@ -235,27 +235,29 @@ def draw_claims(results: Mapping[str, Any], states: TanningHistory, path: Path) 
     write_figure(figure, path)
 
 
-def kinetic_row(found: Kinetics) -> Row:
+def kinetic_row(times: Kinetics) -> Row:
     """Whether the response rises faster than its top lasts and than it fades."""
     return claim(
         "tanning",
         "30 SED, intermediate: days to half of the rise, above 90 % of it, from the peak to half; "
         "aim: the first is the shortest",
         "rises fast, broad maximum, fades gradually; peak on day 10 (6.29)",
-        f"{found.to_half:.1f}, {found.top:.1f}, {found.from_half:.1f}; peak {found.rise:+.0%} on "
-        f"day {found.peak:.1f}",
-        found.to_half < min(found.top, found.from_half),
+        f"{times.to_half:.1f}, {times.top:.1f}, {times.from_half:.1f}; peak {times.rise:+.0%} on "
+        f"day {times.peak:.1f}",
+        times.to_half < min(times.top, times.from_half),
     )
 
 
-def first_row(found: Mapping[str, float]) -> Row:
+def first_row(doses_by_skin: Mapping[str, float]) -> Row:
     """Which dose is the first that shows."""
-    doses = list(found.values())
+    doses = list(doses_by_skin.values())
     return claim(
         "tanning",
         f"first dose whose tan is seen (L* lower by {JUST_SEEN:g}), in SED; MMD by 3.2",
         "higher in darker skin",
-        "; ".join(f"{name} {dose:g} ({SKINS[name].mmd:.2f})" for name, dose in found.items()),
+        "; ".join(
+            f"{name} {dose:g} ({SKINS[name].mmd:.2f})" for name, dose in doses_by_skin.items()
+        ),
         doses[0] < doses[1] < doses[2],
     )
 
@@ -272,14 +274,14 @@ def gain_rows(gains: Mapping[str, Gain]) -> list[Row]:
     }
     rows = []
     for what, (field, form) in measures.items():
-        found = [float(getattr(each, field)[place]) for each in gains.values()]
+        gained = [float(getattr(gain, field)[place]) for gain in gains.values()]
         rows.append(
             claim(
                 "tanning",
                 f"{COMPARED:g} MMD, gain in {what}: low, intermediate, high; aim: high above low",
                 "more in darker skin",
-                ", ".join(form.format(value) for value in found),
-                found[2] > found[0],
+                ", ".join(form.format(value) for value in gained),
+                gained[2] > gained[0],
             )
         )
     return rows
@@ -292,15 +294,15 @@ def equal_rows(gains: Mapping[str, Gain]) -> list[Row]:
         ("melanin relative to the start", "relative", "{:.0%}"),
         ("CIEDE2000", "difference", "{:.1f}"),
     ):
-        found = np.array([getattr(each, field) for each in gains.values()])
+        gained = np.array([getattr(gain, field) for gain in gains.values()])
         rows.append(
             claim(
                 "tanning",
                 f"{', '.join(f'{dose:g}' for dose in EQUAL_DOSES)} SED, gain in {what}: low, "
                 "intermediate, high",
                 "less in darker skin",
-                "; ".join(", ".join(form.format(value) for value in dose) for dose in found.T),
-                bool(np.all(np.diff(found, axis=0) <= 0.0)),
+                "; ".join(", ".join(form.format(value) for value in dose) for dose in gained.T),
+                bool(np.all(np.diff(gained, axis=0) <= 0.0)),
             )
         )
     return rows
@@ -308,21 +310,21 @@ def equal_rows(gains: Mapping[str, Gain]) -> list[Row]:
 
 def convergence_rows(curves: Mapping[str, Mapping[str, Curve]]) -> list[Row]:
     """How far apart the three skins are in the ultraviolet and the visible, before and after."""
-    found, left = [], []
+    told, share_left = [], []
     for band in (UV, GREEN_TO_RED):
         before, after = (
-            spread([each[state] for each in curves.values()], band)
+            spread([spectra[state] for spectra in curves.values()], band)
             for state in ("untanned", "tanned")
         )
-        left.append(after / before)
-        found.append(f"{before:.3f} to {after:.3f} ({after / before:.0%} left)")
+        share_left.append(after / before)
+        told.append(f"{before:.3f} to {after:.3f} ({after / before:.0%} left)")
     return [
         claim(
             "tanning",
             f"reflectance between the lightest and the darkest skin, 300 to 380 and 550 to 650 nm, "
             f"untanned and tanned by {COMPARED:g} MMD; aim: less of it left in the ultraviolet",
             "converges in the ultraviolet when melanin grows",
-            "; ".join(found),
-            left[0] < left[1],
+            "; ".join(told),
+            share_left[0] < share_left[1],
         )
     ]

@@ -55,8 +55,10 @@ def between() -> Specimen:
     """A specimen whose every number is the geometric mean of S3's and S4's."""
     light, dark = SPECIMENS["S3"], SPECIMENS["S4"]
     mean = {
-        each.name: float(np.sqrt(getattr(light, each.name) * getattr(dark, each.name)))
-        for each in parameters()
+        parameter.name: float(
+            np.sqrt(getattr(light, parameter.name) * getattr(dark, parameter.name))
+        )
+        for parameter in parameters()
     }
     return replace(light, name="between S3 and S4", **mean)
 
@@ -96,5 +98,5 @@ def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHist
 def colour(skin: Skin, state: np.ndarray) -> np.ndarray:
     """Linear Rec.709 (3,) under D65 of the skin in a tanning state (4,), at 8 degrees."""
     quadrature = skin_quadrature(COLOUR_WAVELENGTHS)
-    found = spectrum(skin.at(state), quadrature.wavelengths)
-    return quadrature.weights @ found.total
+    light = spectrum(skin.at(state), quadrature.wavelengths)
+    return quadrature.weights @ light.total

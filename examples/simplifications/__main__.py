@@ -68,54 +68,56 @@ def measure(_: argparse.Namespace) -> None:
             bar.update()
 
         walk_seconds(stacks([SPECIMENS["S3"]], measures.COARSE[:1], variants.whole), 1)  # compiles
-        known = measures.truth()
+        truth = measures.truth()
         told()
-        wavelengths = measures.wavelength_rows(known, CHOICES, effort, told)
+        wavelengths = measures.wavelength_rows(truth, CHOICES, effort, told)
         profiles = profiles_of_specimens(told)
-        found = report.Findings(
+        findings = report.Findings(
             wavelengths=wavelengths,
-            gauss=measures.gauss_rows(known, GAUSS),
-            rays=measures.ray_rows(known, RAY_COUNTS),
+            gauss=measures.gauss_rows(truth, GAUSS),
+            rays=measures.ray_rows(truth, RAY_COUNTS),
             model=[
-                *measures.variant_rows(known, CASES, effort, told),
-                Row("no profile, away from edges", *no_difference(known), None, None, None, 1.0),
+                *measures.variant_rows(truth, CASES, effort, told),
+                Row("no profile, away from edges", *no_difference(truth), None, None, None, 1.0),
             ],
             choices=CHOICES,
             lines=tan_lines(told),
             profiles=profiles,
-            walked=measures.walked_difference(known, np.array([each.total for each in profiles])),
-            chance=float(measures.ray_rows(known, [PROFILE_RAYS])[0].specimens.mean()),
+            walked=measures.walked_difference(
+                truth, np.array([profile.total for profile in profiles])
+            ),
+            chance=float(measures.ray_rows(truth, [PROFILE_RAYS])[0].specimens.mean()),
             solver=measures.solver_over_walk(effort),
             bands=bands(effort),
             render=render(),
         )
         bar.update(steps - bar.n)
-    text = report.markdown(found, datetime.date.today(), time.process_time() - worked)
+    text = report.markdown(findings, datetime.date.today(), time.process_time() - worked)
     write(text, DOCUMENT)
     print(f"wrote {DOCUMENT} in {time.monotonic() - started:.0f} s")
 
 
-def no_difference(known: measures.Truth) -> tuple[np.ndarray, np.ndarray]:
+def no_difference(truth: measures.Truth) -> tuple[np.ndarray, np.ndarray]:
     """What costs nothing, as two fields of a `Row`."""
-    return known.differences(known.colours)
+    return truth.differences(truth.colours)
 
 
 def tan_lines(told: measures.Progress) -> list[Edge]:
     """A tan line on each of S1 to S4."""
-    made = []
-    for each in SPECIMENS.values():
-        made.append(tan_line(each, skin_quadrature(LINE_WAVELENGTHS), LINE_RAYS))
+    lines = []
+    for specimen in SPECIMENS.values():
+        lines.append(tan_line(specimen, skin_quadrature(LINE_WAVELENGTHS), LINE_RAYS))
         told()
-    return made
+    return lines
 
 
 def profiles_of_specimens(told: measures.Progress) -> list[Spectrum]:
     """S1 to S4 walked at the full model's wavelengths, with exit distances."""
-    made = []
-    for each in SPECIMENS.values():
-        made.append(spectrum(each, measures.EVEN, rays=PROFILE_RAYS))
+    spectra = []
+    for specimen in SPECIMENS.values():
+        spectra.append(spectrum(specimen, measures.EVEN, rays=PROFILE_RAYS))
         told()
-    return made
+    return spectra
 
 
 def bands(effort: Effort) -> np.ndarray:

@@ -82,7 +82,7 @@ def edge(untanned: Spectrum, tanned: Spectrum, weights: np.ndarray) -> Edge:
     """The line between two skins, from spectra that count exit distances."""
     steps = round(FURTHEST / STEP)
     places = STEP * (np.arange(-steps, steps) + 0.5)
-    beyond = [crossing(each, np.abs(places)) for each in (untanned, tanned)]
+    beyond = [crossing(spectrum, np.abs(places)) for spectrum in (untanned, tanned)]
     on_tanned = (places > 0.0)[:, None]
     own = np.where(on_tanned, tanned.total, untanned.total)
     lost = np.where(on_tanned, beyond[1], beyond[0])

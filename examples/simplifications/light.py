@@ -23,15 +23,19 @@ STEP = 1e-4
 
 def stacks(skins: Sequence[Specimen], wavelengths: np.ndarray, variant: Variant) -> list[Stack]:
     """Layers of each skin at each wavelength in nm, skins one after the other."""
-    return [with_survival(variant(skin, float(each))) for skin in skins for each in wavelengths]
+    return [
+        with_survival(variant(skin, float(wavelength)))
+        for skin in skins
+        for wavelength in wavelengths
+    ]
 
 
 def reflectances(
     skins: Sequence[Specimen], wavelengths: np.ndarray, variant: Variant, angle: float = ANGLE
 ) -> np.ndarray:
     """Total reflectance (S, W) of skins by the solver without noise."""
-    found = solve(stacks(skins, wavelengths, variant), angle)
-    return found.total.reshape(len(skins), -1)
+    solved = solve(stacks(skins, wavelengths, variant), angle)
+    return solved.total.reshape(len(skins), -1)
 
 
 def seconds(work: Callable[[], object]) -> float:

@@ -66,8 +66,8 @@ class Truth:
 
     def differences(self, colours: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """CIEDE2000 of other colours (..., S, 3) on S1 to S4 (..., 4), and on the tans."""
-        found = colour.difference(np.broadcast_to(self.colours, colours.shape), colours)
-        return found[..., : len(SPECIMENS)], found[..., len(SPECIMENS) :]
+        apart = colour.difference(np.broadcast_to(self.colours, colours.shape), colours)
+        return apart[..., : len(SPECIMENS)], apart[..., len(SPECIMENS) :]
 
     def at(self, wavelengths: np.ndarray) -> np.ndarray:
         """Reflectance (S, W) at some wavelengths of `GRID`."""
@@ -115,7 +115,7 @@ def even(step: int) -> Quadrature:
 
 
 def wavelength_rows(
-    known: Truth,
+    truth: Truth,
     choices: Sequence[tuple[str, Quadrature]],
     effort: Effort,
     progress: Progress,
@@ -128,39 +128,41 @@ def wavelength_rows(
         rounds.append(walk_seconds(layers, effort.rays // 3))
         progress()
     walked = np.min(rounds, axis=0).reshape(len(timed), -1)
-    cases = [(whole, each.wavelengths, ANGLE) for _, each in choices]
+    cases = [(whole, quadrature.wavelengths, ANGLE) for _, quadrature in choices]
     solver = _solver_seconds(timed, cases, effort.rounds)
     progress()
     rows = []
-    for (what, each), solving in zip(choices, solver / solver[0], strict=True):
-        walk = walked[:, np.searchsorted(EVEN, each.wavelengths)].sum(axis=1)
+    for (what, quadrature), solving in zip(choices, solver / solver[0], strict=True):
+        walk = walked[:, np.searchsorted(EVEN, quadrature.wavelengths)].sum(axis=1)
         relative = float(np.mean(walk / walked.sum(axis=1)))
-        reflectance = known.at(each.wavelengths)
-        chance = noise(each.weights, reflectance, known.colours, RAYS)
-        more = (chance / _full_noise(known)) ** 2
-        differences = known.differences(reflectance @ each.weights.T)
+        reflectance = truth.at(quadrature.wavelengths)
+        chance = noise(quadrature.weights, reflectance, truth.colours, RAYS)
+        more = (chance / _full_noise(truth)) ** 2
+        differences = truth.differences(reflectance @ quadrature.weights.T)
         rows.append(Row(what, *differences, chance, relative, relative * more, float(solving)))
     return rows
 
 
-def gauss_rows(known: Truth, choices: Sequence[tuple[str, Quadrature]]) -> list[Row]:
+def gauss_rows(truth: Truth, choices: Sequence[tuple[str, Quadrature]]) -> list[Row]:
     """Rows of wavelengths between those of `GRID`, which reflectance is interpolated to."""
     rows = []
-    for what, each in choices:
-        reflectance = np.array([np.interp(each.wavelengths, GRID, r) for r in known.reflectance])
-        chance = noise(each.weights, reflectance, known.colours, RAYS)
-        differences = known.differences(reflectance @ each.weights.T)
+    for what, quadrature in choices:
+        reflectance = np.array(
+            [np.interp(quadrature.wavelengths, GRID, r) for r in truth.reflectance]
+        )
+        chance = noise(quadrature.weights, reflectance, truth.colours, RAYS)
+        differences = truth.differences(reflectance @ quadrature.weights.T)
         rows.append(Row(what, *differences, chance, None, None, None))
     return rows
 
 
 def variant_rows(
-    known: Truth, cases: Sequence[Case], effort: Effort, progress: Progress
+    truth: Truth, cases: Sequence[Case], effort: Effort, progress: Progress
 ) -> list[Row]:
     """Rows of variants of the model; times are relative to the model as it is."""
     everything = [Case("", whole), *cases]
     timed = list(SPECIMENS.values())
-    layers = [stacks(timed, COARSE, each.variant) for each in everything]
+    layers = [stacks(timed, COARSE, case.variant) for case in everything]
     rounds = []
     for _ in range(effort.rounds):
         pairs = zip(everything, layers, strict=True)
@@ -173,29 +175,29 @@ def variant_rows(
     weights = colour.rec709_weights(GRID)
     rows = []
     for case, walking, solving in zip(cases, relative[1:], solver[1:] / solver[0], strict=True):
-        reflectance = reflectances(known.skins, GRID, case.variant, case.angle)
+        reflectance = reflectances(truth.skins, GRID, case.variant, case.angle)
         progress()
         seen = reflectance[:, np.searchsorted(GRID, EVEN)]
-        chance = noise(colour.rec709_weights(EVEN), seen, known.colours, RAYS)
-        more = (chance / _full_noise(known)) ** 2
-        differences = known.differences(reflectance @ weights.T)
+        chance = noise(colour.rec709_weights(EVEN), seen, truth.colours, RAYS)
+        more = (chance / _full_noise(truth)) ** 2
+        differences = truth.differences(reflectance @ weights.T)
         rows.append(Row(case.what, *differences, chance, walking, walking * more, float(solving)))
     return rows
 
 
-def ray_rows(known: Truth, counts: Sequence[int]) -> list[Row]:
+def ray_rows(truth: Truth, counts: Sequence[int]) -> list[Row]:
     """Rows of simulations with fewer rays per wavelength: their chance is drawn, not walked.
 
     How many rays of N come back is binomial; the walk only says with which probability.
     """
     random = np.random.default_rng(1)
     weights = colour.rec709_weights(EVEN)
-    reflectance = known.at(EVEN)
+    reflectance = truth.at(EVEN)
     rows = []
     for rays in counts:
         drawn = random.binomial(rays, reflectance, (DRAWS, *reflectance.shape)) / rays
-        chance = noise(weights, reflectance, known.colours, rays)
-        differences = known.differences(drawn @ weights.T)
+        chance = noise(weights, reflectance, truth.colours, rays)
+        differences = truth.differences(drawn @ weights.T)
         what = f"{rays:,} rays per wavelength"
         rows.append(Row(what, *differences, chance, rays / RAYS, 1.0, None))
     return rows
@@ -211,14 +213,14 @@ def solver_over_walk(effort: Effort) -> float:
     return float(solver / walk)
 
 
-def walked_difference(known: Truth, light: np.ndarray) -> float:
+def walked_difference(truth: Truth, light: np.ndarray) -> float:
     """Mean CIEDE2000 on S1 to S4 between the walk's reflectance (4, len(EVEN)) and the truth."""
     walked = colour.linear_rec709(EVEN, light)
-    return float(colour.difference(known.colours[: len(light)], walked).mean())
+    return float(colour.difference(truth.colours[: len(light)], walked).mean())
 
 
-def _full_noise(known: Truth) -> float:
-    return noise(colour.rec709_weights(EVEN), known.at(EVEN), known.colours, RAYS)
+def _full_noise(truth: Truth) -> float:
+    return noise(colour.rec709_weights(EVEN), truth.at(EVEN), truth.colours, RAYS)
 
 
 def _solver_seconds(
@@ -231,7 +233,7 @@ def _solver_seconds(
     Making the layers counts; a first round, in which it prepares what all skins share, does not.
     """
     times = [
-        [seconds(lambda each=each: reflectances(skins, each[1], each[0], each[2])) for each in work]
+        [seconds(lambda case=case: reflectances(skins, case[1], case[0], case[2])) for case in work]
         for _ in range(rounds + 1)
     ]
     return np.min(times[1:], axis=0)

@@ -54,10 +54,12 @@ def write(quadratures: Sequence[Quadrature], path: Path) -> None:
     with unfinished.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
-        for each in quadratures:
-            for wavelength, weights in zip(each.wavelengths, each.weights.T, strict=True):
+        for quadrature in quadratures:
+            for wavelength, weights in zip(
+                quadrature.wavelengths, quadrature.weights.T, strict=True
+            ):
                 numbers = [f"{weight:.9f}" for weight in weights]
-                writer.writerow([each.wavelengths.size, f"{wavelength:g}", *numbers])
+                writer.writerow([quadrature.wavelengths.size, f"{wavelength:g}", *numbers])
     os.replace(unfinished, path)
 
 

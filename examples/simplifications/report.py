@@ -59,34 +59,34 @@ class Findings:
     render: float | None
 
 
-def markdown(found: Findings, today: datetime.date, seconds: float) -> str:
+def markdown(findings: Findings, today: datetime.date, seconds: float) -> str:
     """The document as Markdown; `seconds` of processor time were spent on it."""
     parts = [
         text.INTRODUCTION.format(dose=DOSE, days=_listed([f"{day}" for day in DAYS])),
         "## The table",
-        rows_table([*found.wavelengths, *found.gauss, *found.rays, *found.model]),
+        rows_table([*findings.wavelengths, *findings.gauss, *findings.rays, *findings.model]),
         text.HEADS.format(rays=RAYS),
         text.HOW.format(
             date=today.isoformat(),
             minutes=seconds / 60.0,
             machine=f"{platform.machine()}, Python {platform.python_version()}",
-            rays=found.profiles[0].rays,
-            walked=found.walked,
-            chance=found.chance,
-            solver=1.0 / found.solver,
+            rays=findings.profiles[0].rays,
+            walked=findings.walked,
+            chance=findings.chance,
+            solver=1.0 / findings.solver,
             rays_full=RAYS,
         ),
         "## Which wavelengths",
         text.CHOOSING,
         "### Width of the profile",
-        text.WIDTHS.format(rays=found.profiles[0].rays, signed=_moved_widths(found)),
-        widths_table(found),
+        text.WIDTHS.format(rays=findings.profiles[0].rays, signed=_moved_widths(findings)),
+        widths_table(findings),
         "## A tan line without a profile",
         text.LINES.format(day=DARKEST_DAY, visible=JUST_VISIBLE),
-        lines_table(found.lines),
-        _renders(found.render),
+        lines_table(findings.lines),
+        _renders(findings.render),
         "## Ultraviolet and infrared",
-        _bands(found.bands),
+        _bands(findings.bands),
         "## What a scene needs",
         text.NEEDS,
     ]
@@ -96,8 +96,10 @@ def markdown(found: Findings, today: datetime.date, seconds: float) -> str:
 def _wrapped(part: str) -> str:
     """Text with its paragraphs broken anew, as numbers have been put in; no tables, no lists."""
     return "\n\n".join(
-        each if each.startswith(("|", "#", "- ")) else textwrap.fill(" ".join(each.split()), 100)
-        for each in part.split("\n\n")
+        paragraph
+        if paragraph.startswith(("|", "#", "- "))
+        else textwrap.fill(" ".join(paragraph.split()), 100)
+        for paragraph in part.split("\n\n")
     )
 
 
@@ -152,23 +154,23 @@ def profile_widths(light: Spectrum, choice: Quadrature, *, signed: bool) -> np.n
     return np.array([burley_width(DISTANCE_EDGES, row) for row in np.maximum(exits, 0.0)])
 
 
-def widths_table(found: Findings) -> str:
+def widths_table(findings: Findings) -> str:
     """How far widths from fewer wavelengths are from those of all, mean over S1 to S4."""
-    (_, full), *others = found.choices
+    (_, full), *others = findings.choices
     rows = []
     for what, choice in others:
         row = [what]
         for signed in (True, False):
             missed = [
-                profile_widths(each, choice, signed=signed)
-                / profile_widths(each, full, signed=signed)
+                profile_widths(spectrum, choice, signed=signed)
+                / profile_widths(spectrum, full, signed=signed)
                 - 1.0
-                for each in found.profiles
+                for spectrum in findings.profiles
             ]
             row += [f"{100.0 * mean:.1f} %" for mean in np.abs(missed).mean(axis=0)]
         rows.append(row)
     channels = ("red", "green", "blue")
-    return _table(("", *channels, *(f"{each}, above 0 only" for each in channels)), rows)
+    return _table(("", *channels, *(f"{channel}, above 0 only" for channel in channels)), rows)
 
 
 def lines_table(lines: Sequence[Edge]) -> str:
@@ -186,12 +188,12 @@ def lines_table(lines: Sequence[Edge]) -> str:
     return _table(("", "tan", "within 1 mm", "within 3 mm", "visible to"), rows)
 
 
-def _moved_widths(found: Findings) -> str:
+def _moved_widths(findings: Findings) -> str:
     """How leaving out negative weights moves each channel's width, in words."""
-    (_, full), *_ = found.choices
+    (_, full), *_ = findings.choices
     ratios = [
-        profile_widths(each, full, signed=False) / profile_widths(each, full, signed=True)
-        for each in found.profiles
+        profile_widths(spectrum, full, signed=False) / profile_widths(spectrum, full, signed=True)
+        for spectrum in findings.profiles
     ]
     moved = 100.0 * (np.mean(ratios, axis=0) - 1.0)
     names = ("red", "green", "blue")
@@ -203,12 +205,12 @@ def _renders(ratio: float | None) -> str:
 
 
 def _bands(ratios: np.ndarray) -> str:
-    each = [
+    parts = [
         f"{_number(float(ratio))} at {band:g} nm"
         for ratio, band in zip(ratios, BANDS_NM, strict=True)
     ]
     saved = 100.0 * ratios.sum() / (ratios.sum() + 8.0)
-    return text.BANDS.format(bands=_listed(each), saved=saved)
+    return text.BANDS.format(bands=_listed(parts), saved=saved)
 
 
 def _listed(parts: Sequence[str]) -> str:

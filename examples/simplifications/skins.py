@@ -22,7 +22,9 @@ def tan(specimen: Specimen) -> list[Specimen]:
 
 def measured() -> tuple[list[Specimen], list[Specimen]]:
     """S1 to S4, and the tans of all four."""
-    return list(SPECIMENS.values()), [each for one in SPECIMENS.values() for each in tan(one)]
+    return list(SPECIMENS.values()), [
+        tanned for specimen in SPECIMENS.values() for tanned in tan(specimen)
+    ]
 
 
 def random_skins(count: int, seed: int) -> list[Specimen]:

@@ -44,7 +44,7 @@ def no_rayleigh(specimen: Specimen, wavelength: float) -> Stack:
 
 def without_rayleigh(layers: Stack) -> Stack:
     """Layers whose fibres do not scatter."""
-    return replace(layers, layers=tuple(replace(each, rayleigh=0.0) for each in layers.layers))
+    return replace(layers, layers=tuple(replace(layer, rayleigh=0.0) for layer in layers.layers))
 
 
 def spread_evenly(specimen: Specimen, wavelength: float) -> Stack:
@@ -62,19 +62,19 @@ def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
     """One epidermal layer with the mean contents, its melanosomes of the stratum basale's size."""
     layers = Stack.of(specimen, wavelength)
     *upper, basale = parts = layers.layers[EPIDERMAL]
-    thickness = sum(each.thickness for each in parts)
+    thickness = sum(layer.thickness for layer in parts)
 
     def mean(quantities) -> float:
         return (
-            sum(q * each.thickness for q, each in zip(quantities, parts, strict=True)) / thickness
+            sum(q * layer.thickness for q, layer in zip(quantities, parts, strict=True)) / thickness
         )
 
     # Melanosomes attenuate as their content over their size (4.3).
     joined = replace(
         basale,
         thickness=thickness,
-        absorption=mean(each.absorption for each in parts),
-        encounter=mean(each.encounter * each.semi_minor for each in parts) / basale.semi_minor,
+        absorption=mean(layer.absorption for layer in parts),
+        encounter=mean(layer.encounter * layer.semi_minor for layer in parts) / basale.semi_minor,
     )
     return replace(layers, layers=(layers.layers[0], joined, *layers.layers[EPIDERMAL.stop :]))
 

@@ -23,7 +23,7 @@ from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, phototype
 from hylios.skin.specimen import SPECIMENS, Specimen
 from hylios.transport.simulate import MOST_RAYS, Progress, spectrum
-from lut_builder.axes import reachable_states, untanned_state
+from lut_builder.axes import reachable_states
 
 WAVELENGTHS = np.array(
     [250.0, 290.0, 320.0, 365.0, 420.0, 470.0, 545.0, 600.0, 700.0, 900.0, 1200.0, 1650.0, 2500.0]
@@ -118,7 +118,7 @@ def specimens(seed: int, tanned: int = TANNED) -> list[tuple[str, str, Specimen]
 def _tanned_states(skin: Skin, seed: int) -> np.ndarray:
     """States (N, 4) that a skin reaches and that differ from the untanned."""
     states = reachable_states(skin, SCHEDULES, seed)
-    change = np.abs(states / untanned_state(skin) - 1.0).max(axis=1)
+    change = np.abs(states / skin.untanned_state - 1.0).max(axis=1)
     return states[change > LEAST_CHANGE]
 
 

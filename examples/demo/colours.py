@@ -9,9 +9,10 @@ import numpy as np
 
 from examples.demo import swimsuit
 from examples.demo.render import Light, Window
+from hylios.history import history_of_shares
 from hylios.lab import colour
 from hylios.table import SkinTable, melanin_dynamics
-from hylios.tanning import Exposures, simulate
+from hylios.tanning import Exposures
 
 SKINS = ("untanned", "tanned")
 PATCH_RADIUS = 0.012  # metres
@@ -115,16 +116,16 @@ def reading(day: float, patch: Patch, light: Light, white: Light, predicted: np.
 
 def predictions(table: SkinTable, dose: float, days: Sequence[float]) -> np.ndarray:
     """Subsurface colours (days, 2, 3), linear Rec.709, without and with a dose in SED on day 0."""
-    hours = [round(24 * day) for day in days]
     described = table.provenance
-    history = simulate(
-        Exposures(hours=np.array([0]), doses=np.array([[0.0], [dose]])),
+    history = history_of_shares(
+        Exposures(hours=np.array([0]), doses=np.array([dose])),
         melanin_dynamics(described),
+        hours=[round(24 * day) for day in days],
         mmd=described["mmd_sed"],
         med=described["med_sed"],
-        hours=max(hours),
+        shares=[0.0, 1.0],
     )
-    return np.moveaxis(table.plane("subsurface_colour", history.states[:, hours]), 0, 1)
+    return table.plane("subsurface_colour", history.image)
 
 
 def report(readings: Sequence[Reading]) -> str:

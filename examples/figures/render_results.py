@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from examples.figures.shots import UV, Shot
-from examples.figures.tans import history
+from examples.figures.tans import exposures_of
 from hylios.adding import colours
 from hylios.lab.colour import difference, lab
 from hylios.quadrature import MOST
@@ -75,8 +75,9 @@ def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
 
 def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:
     """States (parts + 1, 4) on the day of a shot: of each schedule, and without sun."""
+    hours = [24.0 * shot.day]
     schedules = (*shot.schedules, ())
-    return np.array([history(skin, schedule, shot.day).states[-1] for schedule in schedules])
+    return np.array([skin.states(exposures_of(schedule), hours)[0] for schedule in schedules])
 
 
 def colour(skin: Skin, state: np.ndarray) -> np.ndarray:

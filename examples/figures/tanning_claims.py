@@ -23,7 +23,6 @@ from hylios.adding import spectrum
 from hylios.lab.colour import difference, lab
 from hylios.lab.pictures import write_figure
 from hylios.skin import Skin
-from hylios.skin.specimen import tanned
 from hylios.tanning import TanningHistory
 
 FIGURES = ("tanning",)
@@ -151,8 +150,7 @@ def spectra(skin: Skin, tick: Tick) -> dict[str, Curve]:
     states = single_doses(skin, [COMPARED * skin.mmd], PEAK_DAYS)
     curves = {}
     for name, hour in (("untanned", 0), ("tanned", int(states.total[0].argmax()))):
-        specimen = tanned(skin.specimen, states.melanin[0, hour], states.thickness[0, hour])
-        total = spectrum(specimen, WAVELENGTHS).total
+        total = spectrum(skin.at(states.states[0, hour]), WAVELENGTHS).total
         curves[name] = Curve(WAVELENGTHS, total, np.zeros(WAVELENGTHS.size), 0)
         tick(WAVELENGTHS.size)
     return curves

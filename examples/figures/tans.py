@@ -77,11 +77,15 @@ COLOUR_WAVELENGTHS = 8
 """At which the light model is asked for a colour: within .03 in L* of a spectrum every 10 nm."""
 
 
+def exposures_of(schedule: Schedule) -> Exposures:
+    """The doses of a schedule, to the hour."""
+    hours = np.array([round(24 * day) for day, _ in schedule])
+    return Exposures(hours, np.array([dose for _, dose in schedule]))
+
+
 def history(skin: Skin, schedule: Schedule, days: float) -> TanningHistory:
     """The skin's state after a schedule, every hour up to a day."""
-    hours = np.array([round(24 * day) for day, _ in schedule])
-    exposures = Exposures(hours, np.array([dose for _, dose in schedule]))
-    return skin.history(exposures, round(24 * days))
+    return skin.history(exposures_of(schedule), round(24 * days))
 
 
 def rise(states: TanningHistory) -> float:

@@ -31,14 +31,14 @@ def flat(reflectance, rays=0):
 
 
 def test_a_name_chooses_its_group():
-    assert program.chosen([]) == list(program.GROUPS)
-    assert program.chosen(["D.3"]) == [compression]
-    assert program.chosen(["C", "A"]) == [absorbers, melanin_forms]
-    assert program.chosen(["table 6.3"]) == [sensitivity]
+    assert program.groups_with([]) == list(program.GROUPS)
+    assert program.groups_with(["D.3"]) == [compression]
+    assert program.groups_with(["C", "A"]) == [absorbers, melanin_forms]
+    assert program.groups_with(["table 6.3"]) == [sensitivity]
     with pytest.raises(InputError, match="no figure 'E'; there are A.1"):
-        program.chosen(["E"])
+        program.groups_with(["E"])
     with pytest.raises(InputError):
-        program.chosen(["6.1"])  # 6.13 is not 6.1
+        program.groups_with(["6.1"])  # 6.13 is not 6.1
 
 
 def test_every_figure_of_the_appendices_has_one_owner():

@@ -20,7 +20,7 @@ def test_every_figure_from_6_2_to_6_8_has_one_owner():
     named = [name for group in program.GROUPS for name in group.FIGURES]
     assert len(named) == len(set(named))
     assert {f"6.{number}" for number in range(2, 9)} <= set(named)
-    assert program.chosen(["6.3"]) == [predecessors]
+    assert program.groups_with(["6.3"]) == [predecessors]
 
 
 def visible(reflectance):

@@ -36,9 +36,9 @@ def gains():
 def test_every_plot_of_tanning_has_one_owner():
     named = [name for group in program.GROUPS for name in group.FIGURES]
     assert len(named) == len(set(named))
-    assert program.chosen(["6.21", "6.23"]) == [dose_schedules, dose_responses]
-    assert program.chosen(["B"]) == [dose_responses]
-    assert program.chosen(["tanning"]) == [tanning_claims]
+    assert program.groups_with(["6.21", "6.23"]) == [dose_schedules, dose_responses]
+    assert program.groups_with(["B"]) == [dose_responses]
+    assert program.groups_with(["tanning"]) == [tanning_claims]
 
 
 def test_schedules_keep_the_published_sums_and_weeks():

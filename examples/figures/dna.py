@@ -138,15 +138,15 @@ def reflectance(absorbers: Absorbers) -> np.ndarray:
     return exact([absorbing(Stack.of(skin, nm), nm, absorbers) for nm in WAVELENGTHS], ANGLE)
 
 
-def absorbing(skin: Stack, wavelength: float, absorbers: Absorbers) -> Stack:
+def absorbing(stack: Stack, wavelength: float, absorbers: Absorbers) -> Stack:
     """S3 without DNA and keratin, with those of `absorbers` added."""
     dna = published_spectra()["dna"].at(wavelength) * SKIN.skin_dna
     keratin = published_spectra()["keratin"].at(wavelength) * 0.01 * SKIN.corneum_keratin
     beyond = absorbers.beyond if wavelength > FIGURE_ENDS else 0.0
     epidermis, dermis = absorbers.epidermis * dna + beyond, absorbers.dermis * dna
     added = (absorbers.keratin * keratin, *[epidermis] * 3, *[dermis] * 2)
-    layers = zip(skin.layers, added, strict=True)
-    return replace(skin, layers=tuple(more_absorbing(layer, more) for layer, more in layers))
+    layers = zip(stack.layers, added, strict=True)
+    return replace(stack, layers=tuple(more_absorbing(layer, more) for layer, more in layers))
 
 
 def more_absorbing(layer: Layer, more: float) -> Layer:

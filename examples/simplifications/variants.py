@@ -42,9 +42,9 @@ def no_rayleigh(specimen: Specimen, wavelength: float) -> Stack:
     return without_rayleigh(Stack.of(specimen, wavelength))
 
 
-def without_rayleigh(layers: Stack) -> Stack:
+def without_rayleigh(stack: Stack) -> Stack:
     """Layers whose fibres do not scatter."""
-    return replace(layers, layers=tuple(replace(layer, rayleigh=0.0) for layer in layers.layers))
+    return replace(stack, layers=tuple(replace(layer, rayleigh=0.0) for layer in stack.layers))
 
 
 def spread_evenly(specimen: Specimen, wavelength: float) -> Stack:
@@ -60,8 +60,8 @@ def spread_evenly(specimen: Specimen, wavelength: float) -> Stack:
 
 def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
     """One epidermal layer with the mean contents, its melanosomes of the stratum basale's size."""
-    layers = Stack.of(specimen, wavelength)
-    *upper, basale = parts = layers.layers[EPIDERMAL]
+    stack = Stack.of(specimen, wavelength)
+    *upper, basale = parts = stack.layers[EPIDERMAL]
     thickness = sum(layer.thickness for layer in parts)
 
     def mean(quantities) -> float:
@@ -76,7 +76,7 @@ def one_epidermis(specimen: Specimen, wavelength: float) -> Stack:
         absorption=mean(layer.absorption for layer in parts),
         encounter=mean(layer.encounter * layer.semi_minor for layer in parts) / basale.semi_minor,
     )
-    return replace(layers, layers=(layers.layers[0], joined, *layers.layers[EPIDERMAL.stop :]))
+    return replace(stack, layers=(stack.layers[0], joined, *stack.layers[EPIDERMAL.stop :]))
 
 
 def no_rare_pigments(specimen: Specimen, wavelength: float) -> Stack:

@@ -21,36 +21,36 @@ RAYS, WAVELENGTHS = 30_000, np.array([250.0, 320.0, 420.0, 545.0, 700.0, 1200.0]
 def test_the_solvers_agree_on_tanned_skin():
     """Six tanned states of S1 to S4, I and II. A solver with the error that is aimed at fails by
     chance with less than 1 seed in 8,000 (chi squared, 36 degrees; and the mean)."""
-    tanned = [each for each in specimens(7, tanned=6) if each[1]]
+    tanned = [tan for tan in specimens(7, tanned=6) if tan[1]]
     assert len(tanned) == 6
     pairs = [
         pair
-        for seed, each in enumerate(tanned)
-        for pair in compared(*each, rays=RAYS, seed=seed, wavelengths=WAVELENGTHS)
+        for seed, tan in enumerate(tanned)
+        for pair in compared(*tan, rays=RAYS, seed=seed, wavelengths=WAVELENGTHS)
     ]
-    differences = np.array([each.difference for each in pairs])
-    noise = np.array([each.error for each in pairs])
+    differences = np.array([pair.difference for pair in pairs])
+    noise = np.array([pair.error for pair in pairs])
     assert (differences**2 / (noise**2 + MOST_RMS**2)).sum() < 78.5
     assert abs(differences.mean()) < 4.0 * np.sqrt(np.mean(noise**2) / noise.size) + MOST_RMS
 
 
 def test_tanned_states_are_drawn_from_every_skin():
     drawn = specimens(1)
-    assert [each[2] for each in drawn[:4]] == list(SPECIMENS.values())
-    assert len({each[1] for each in drawn[4:]}) == TANNED
-    assert {each[0] for each in drawn[4:]} == {*SPECIMENS, "I", "II", "III", "IV", "V", "VI"}
-    assert [each[:2] for each in specimens(1)] == [each[:2] for each in drawn]
+    assert [draw[2] for draw in drawn[:4]] == list(SPECIMENS.values())
+    assert len({draw[1] for draw in drawn[4:]}) == TANNED
+    assert {draw[0] for draw in drawn[4:]} == {*SPECIMENS, "I", "II", "III", "IV", "V", "VI"}
+    assert [draw[:2] for draw in specimens(1)] == [draw[:2] for draw in drawn]
 
 
 def test_noise_is_taken_off():
     """Differences of 5 of which 4 are noise leave 3."""
-    found = agreement(
+    summary = agreement(
         [replace(PAIR, walked=0.4, error=4e-4, solved=0.4 + d) for d in (5e-4, -5e-4)]
     )
-    assert found.rms == pytest.approx(5e-4)
-    assert found.noise == pytest.approx(4e-4)
-    assert found.own == pytest.approx(3e-4)
-    assert found.largest == pytest.approx(5e-4)
+    assert summary.rms == pytest.approx(5e-4)
+    assert summary.noise == pytest.approx(4e-4)
+    assert summary.own == pytest.approx(3e-4)
+    assert summary.largest == pytest.approx(5e-4)
     assert agreement([PAIR, replace(PAIR, error=1.0)]).own == 0.0
 
 

@@ -63,11 +63,11 @@ def test_a_reading_is_the_albedo_whatever_the_lamp():
     white = plate(WHITE, unevenness=3.0)
     skin = plate(SKIN, unevenness=3.0)
     for patch, expected in zip(patches_of(white), SKIN, strict=True):
-        found = colours.reading(10.0, patch, skin, white, expected)
+        reading = colours.reading(10.0, patch, skin, white, expected)
         # Light is divided by light over the same patch: uneven light leaves the ratio alone.
-        assert found.rendered == pytest.approx(expected, rel=1e-6)
-        assert found.difference == pytest.approx(0.0, abs=1e-5)
-        assert found.entering == pytest.approx(1.0)
+        assert reading.rendered == pytest.approx(expected, rel=1e-6)
+        assert reading.difference == pytest.approx(0.0, abs=1e-5)
+        assert reading.entering == pytest.approx(1.0)
 
 
 def test_the_model_darkens_tanned_skin_alone_and_most_on_day_ten():
@@ -89,12 +89,12 @@ def test_srgb_bytes_go_back_to_the_colour():
 
 
 def test_the_file_holds_what_is_printed(tmp_path):
-    found = [
+    readings = [
         colours.Reading(day, skin, 0.97 * linear, linear, 0.97)
         for day in (0, 10)
         for skin, linear in zip(colours.SKINS, SKIN, strict=True)
     ]
-    colours.write_csv(found, tmp_path / "colours.csv")
+    colours.write_csv(readings, tmp_path / "colours.csv")
     with (tmp_path / "colours.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert [(row["day"], row["skin"]) for row in rows] == [
@@ -104,6 +104,6 @@ def test_the_file_holds_what_is_printed(tmp_path):
         ("10", "tanned"),
     ]
     assert float(rows[1]["predicted_L"]) == pytest.approx(colour.lab(SKIN[1])[0], abs=1e-3)
-    report = colours.report(found)
-    assert "97.0%" in report and f"{found[0].difference:.2f}" in report
+    report = colours.report(readings)
+    assert "97.0%" in report and f"{readings[0].difference:.2f}" in report
     assert all(row["rendered_red"] in report for row in rows)

@@ -103,8 +103,8 @@ def test_components_needed_for_a_low_error():
 def test_the_sensitivity_index_by_hand():
     """Two wavelengths: |0.2 - 0.4| / 0.4 and |0.5 - 0.4| / 0.5."""
     assert sensitivity.index(np.array([0.2, 0.5]), np.array([0.4, 0.4])) == pytest.approx(0.35)
-    found = sensitivity.indices(flat(0.2), flat(0.4))
-    assert found == pytest.approx({"UV": 0.5, "visible": 0.5, "IR": 0.5, "Hyper": 0.5})
+    index = sensitivity.indices(flat(0.2), flat(0.4))
+    assert index == pytest.approx({"UV": 0.5, "visible": 0.5, "IR": 0.5, "Hyper": 0.5})
 
 
 def test_noise_alone_has_the_index_that_is_expected():

@@ -68,15 +68,15 @@ def test_dj06_walks_as_far_as_its_multipole_says():
 def test_a_corneum_without_roughness_turns_nothing_and_absorbs_by_beer_and_lambert():
     """Share let through (1 - F) exp(-mu d), five standard errors: false alarm 1 in 1e6."""
     sample = replace(goniometry.SAMPLES["stratum corneum"], flat=True)
-    layers = goniometry.prepared(sample)
+    stack = goniometry.prepared(sample)
     rays = 20_000
-    found = counted(goniometry.by_angle, layers, rays=rays, angle=0.0, key=(3,))
-    assert found[1:].sum() == 0
-    only = layers.layers[0]
+    counts = counted(goniometry.by_angle, stack, rays=rays, angle=0.0, key=(3,))
+    assert counts[1:].sum() == 0
+    only = stack.layers[0]
     reflected, _ = fresnel(1.0, 1.0, only.refractive_index)
     expected = (1.0 - reflected) * np.exp(-only.absorption * only.thickness)
     error = np.sqrt(expected * (1.0 - expected) / rays)
-    assert abs(found[0] / rays - expected) < 5.0 * error
+    assert abs(counts[0] / rays - expected) < 5.0 * error
 
 
 def test_samples_have_their_layers_and_what_lies_behind():
@@ -141,18 +141,18 @@ DIFFUSE = np.round(3e8 * lobes(0.0, NOTHING, NOTHING).projected_solid_angle / np
 
 @pytest.mark.parametrize("angle", [0.0, 45.0])
 def test_lambertian_light_has_one_brdf_in_the_plane(angle):
-    directions, found, error = angular.in_plane(lobes(angle, NOTHING, DIFFUSE), DIFFUSE)
+    directions, brdf, error = angular.in_plane(lobes(angle, NOTHING, DIFFUSE), DIFFUSE)
     assert directions[[0, 17, 18, 35]].tolist() == [-87.5, -2.5, 2.5, 87.5]
-    assert found == pytest.approx(np.full(36, 0.3 / np.pi), rel=1e-4)
-    assert np.all(error > 0.0) and np.all(error < 0.01 * found)
+    assert brdf == pytest.approx(np.full(36, 0.3 / np.pi), rel=1e-4)
+    assert np.all(error > 0.0) and np.all(error < 0.01 * brdf)
 
 
 def test_the_mirrors_side_is_positive():
     counts = DIFFUSE.copy()
     counts[9, 0] *= 2
-    found = angular.in_plane(lobes(45.0, counts, NOTHING), counts)[1]
-    assert int(np.argmax(found)) == 18 + 9
-    assert found[17 - 9] == pytest.approx(0.3 / np.pi, rel=1e-4)
+    brdf = angular.in_plane(lobes(45.0, counts, NOTHING), counts)[1]
+    assert int(np.argmax(brdf)) == 18 + 9
+    assert brdf[17 - 9] == pytest.approx(0.3 / np.pi, rel=1e-4)
 
 
 def test_distance_from_lambertian_light():

@@ -99,5 +99,5 @@ def test_the_forehead_reflects_as_much_as_light_skin(incidence):
     squared = 0.5 * (1.0 + node)  # sin^2, in which the projected solid angle is even
     polar = np.degrees(np.arcsin(np.sqrt(squared)))
     turns = np.arange(0.5, 180.0)
-    found = np.mean([forehead(incidence, polar, np.full(60, turn)) for turn in turns], axis=0)
-    assert 0.25 < np.pi * found @ (0.5 * weight) < 0.5
+    brdf = np.mean([forehead(incidence, polar, np.full(60, turn)) for turn in turns], axis=0)
+    assert 0.25 < np.pi * brdf @ (0.5 * weight) < 0.5

@@ -78,7 +78,7 @@ def test_the_skins_are_those_of_the_captions():
 def test_the_skin_between_is_darker_than_the_light_and_lighter_than_the_dark():
     untanned = np.array([*PIGMENTATIONS["low"].steady_state(), 1.0])
     skins = [shots.skins()[name] for name in ("low", "intermediate", "high")]
-    low, between, high = (lab(render_results.colour(each, untanned))[0] for each in skins)
+    low, between, high = (lab(render_results.colour(skin, untanned))[0] for skin in skins)
     assert high + 10.0 < between < low - 5.0
 
 
@@ -92,7 +92,7 @@ def test_every_shot_has_its_table_and_day():
 
 def test_patches_are_rounded_squares_one_over_the_other():
     side = np.linspace(-0.12, 0.12, 961)
-    across, up = (each.ravel() for each in np.meshgrid(side, side))
+    across, up = (grid.ravel() for grid in np.meshgrid(side, side))
     inside = sun_fields.square_patches(across, up) > 0
     area = inside.sum() * (side[1] - side[0]) ** 2
     rounded = (4.0 - np.pi) * sun_fields.PATCH_CORNER**2
@@ -146,10 +146,10 @@ def test_a_colour_is_read_as_a_share_of_white_away_from_the_edge():
     stage = half_stage((0.0, 0.0, 0.0))
     distance = pixel_readings.sun_distance(white, stage, CAMERA)
     assert np.nanmax(np.abs(distance - white.position[..., 0])) < 1e-9
-    where = pixel_readings.regions(white, distance, stage)
-    found = pixel_readings.readings(light, white, where)
-    assert np.allclose(found, [[0.4, 0.2, 0.1], [0.6, 0.5, 0.4]])
-    shone = pixel_readings.shine(pixel_readings.Taken(light.scattered + 0.25, light), where)
+    regions = pixel_readings.regions(white, distance, stage)
+    shares = pixel_readings.readings(light, white, regions)
+    assert np.allclose(shares, [[0.4, 0.2, 0.1], [0.6, 0.5, 0.4]])
+    shone = pixel_readings.shine(pixel_readings.Taken(light.scattered + 0.25, light), regions)
     assert np.allclose(shone, 0.25)
 
 
@@ -164,9 +164,11 @@ def test_skin_that_turns_away_is_not_read():
 def test_nothing_is_read_where_nothing_is_seen():
     white = flat_light(np.full((40, 40, 3), 0.8))
     stage = half_stage((0.0, 5.0, 0.0))
-    where = pixel_readings.regions(white, pixel_readings.sun_distance(white, stage, CAMERA), stage)
-    assert not np.any(where)
-    assert np.all(np.isnan(pixel_readings.readings(white, white, where)))
+    regions = pixel_readings.regions(
+        white, pixel_readings.sun_distance(white, stage, CAMERA), stage
+    )
+    assert not np.any(regions)
+    assert np.all(np.isnan(pixel_readings.readings(white, white, regions)))
 
 
 @pytest.fixture(scope="module")
@@ -185,7 +187,7 @@ def test_three_schedules_on_one_object_are_three_materials(table):
         scenes.tan(obj, table, shots.SCHEDULES)
         names = [material.name for material in obj.data.materials]
         assert names == ["Skin Tan Suzanne", "Skin Tan Suzanne 1", "Skin Tan Suzanne 2"]
-        assert [each.name for each in bpy.data.objects if each.type == "MESH"] == ["Suzanne"]
+        assert [obj.name for obj in bpy.data.objects if obj.type == "MESH"] == ["Suzanne"]
         last = [
             np.array(bpy.data.images[f"Skin Tan Colour {name[9:]}"].pixels[:]).sum()
             for name in names
@@ -272,10 +274,10 @@ def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
     monkeypatch.setattr(renders, "UV_RAYS", 300)
     wanted = shots.named(["6.28 visible day 0", "6.28 UV day 15"])
     ticks = []
-    found = renders.rendered(wanted, tmp_path, Effort(seed=1), ticks.append, STAND_IN)
-    assert [each.shot for each in found] == wanted
+    results = renders.rendered(wanted, tmp_path, Effort(seed=1), ticks.append, STAND_IN)
+    assert [result.shot for result in results] == wanted
     assert ticks.count(renders.PICTURE_AS_LONG) == 2
-    visible, uv = found
+    visible, uv = results
     assert visible.subject == "Suzanne"
     assert visible.picture.shape == uv.picture.shape == (43, 32, 3)
     assert visible.exact is not None and uv.exact is None
@@ -294,9 +296,9 @@ def test_blender_that_fails_is_told_in_a_sentence(tmp_path):
 def test_all_figures_from_small_renders_of_the_stand_in(tmp_path, monkeypatch):
     monkeypatch.setattr(renders, "SETTINGS", replace(renders.SETTINGS, profile_error=0.1))
     options = ("--stand-in", "--scale", "0.4", "--samples", "12")
-    found = renders.rendered(shots.shots(), tmp_path, Effort(seed=1), lambda _: None, options)
-    rows = renders.draw({"renders": found}, tmp_path)
-    assert {f"{name}.png" for name in renders.FIGURES} <= {each.name for each in tmp_path.iterdir()}
+    results = renders.rendered(shots.shots(), tmp_path, Effort(seed=1), lambda _: None, options)
+    rows = renders.draw({"renders": results}, tmp_path)
+    assert {f"{name}.png" for name in renders.FIGURES} <= {path.name for path in tmp_path.iterdir()}
     assert {row.where for row in rows} == set(renders.FIGURES)
     # Few pixels and samples, and no smooth body: colours are nearer to the table in a real one.
     claims = [row for row in rows if row.aim == "as printed"]

@@ -8,7 +8,7 @@ from examples.figures import dose_responses, dose_schedules, tanning_claims, tan
 from examples.figures.light import Effort
 from hylios.adding import spectrum
 from hylios.lab.colour import lab, linear_rec709
-from hylios.skin.specimen import SPECIMENS, parameters, tanned
+from hylios.skin.specimen import SPECIMENS, parameters
 from hylios.tanning import TanningHistory
 
 SKINS = tuple(tans.SKINS)
@@ -57,9 +57,9 @@ def test_schedules_keep_the_published_sums_and_weeks():
 
 def test_the_skin_between_lies_between_in_everything():
     middle, light, dark = tans.between(), SPECIMENS["S3"], SPECIMENS["S4"]
-    for each in parameters():
-        ends = sorted((getattr(light, each.name), getattr(dark, each.name)))
-        assert ends[0] * (1 - 1e-12) <= getattr(middle, each.name) <= ends[1] * (1 + 1e-12)
+    for parameter in parameters():
+        ends = sorted((getattr(light, parameter.name), getattr(dark, parameter.name)))
+        assert ends[0] * (1 - 1e-12) <= getattr(middle, parameter.name) <= ends[1] * (1 + 1e-12)
     per_area = [skin.melanin @ skin.epidermal_thickness for skin in (light, middle, dark)]
     assert light.pigmentation < middle.pigmentation < dark.pigmentation
     assert per_area[0] < per_area[1] < per_area[2]
@@ -73,8 +73,8 @@ def test_minimal_doses_by_hand():
 def test_eight_wavelengths_give_the_lightness_of_a_spectrum():
     skin, melanin = tans.MILLER_SKIN, np.array([0.4, 0.5, 0.9])
     wavelengths = np.arange(400.0, 701.0, 10.0)
-    found = spectrum(tanned(skin.specimen, melanin, 1.2), wavelengths).total
-    expected = lab(linear_rec709(wavelengths, found))[0]
+    reflectance = spectrum(skin.at(np.append(melanin, 1.2)), wavelengths).total
+    expected = lab(linear_rec709(wavelengths, reflectance))[0]
     assert abs(lab(tans.colour(skin, np.append(melanin, 1.2)))[0] - expected) < 0.03
 
 
@@ -122,8 +122,8 @@ def test_more_doses_of_a_schedule_beyond_enough_hardly_tan_more():
     """42 SED as 29 SED, 19 SED less (the abstract of Miller et al. 2008)."""
     skin = tans.MILLER_SKIN
     most, many, few = (
-        tans.rise(tans.history(skin, each, dose_schedules.MILLER_DAYS))
-        for each in tans.SCHEDULES.values()
+        tans.rise(tans.history(skin, schedule, dose_schedules.MILLER_DAYS))
+        for schedule in tans.SCHEDULES.values()
     )
     assert most > many > few > 0.0
     assert most - many < 0.5 * (many - few)
@@ -139,10 +139,10 @@ def test_thickness_follows_the_dose_and_returns():
 
 def test_the_lightness_of_a_tan_falls_and_comes_back():
     days = np.array([0.0, 20.0, 60.0])
-    seen = []
-    each = dose_schedules.tan(tans.MILLER_SKIN, tans.SCHEDULES["29 SED"], days, seen.append)
-    assert each.lightness[1] < each.lightness[2] - 5.0 < each.lightness[0] - 5.0
-    assert sum(seen) == 3 * tans.COLOUR_WAVELENGTHS
+    ticks = []
+    tan = dose_schedules.tan(tans.MILLER_SKIN, tans.SCHEDULES["29 SED"], days, ticks.append)
+    assert tan.lightness[1] < tan.lightness[2] - 5.0 < tan.lightness[0] - 5.0
+    assert sum(ticks) == 3 * tans.COLOUR_WAVELENGTHS
 
 
 def test_kinetics_by_hand():
@@ -150,19 +150,19 @@ def test_kinetics_by_hand():
     gained = np.concatenate([np.arange(0, 129) / 128.0, np.arange(255, -1, -1) / 256.0])
     hours = np.arange(gained.size)
     melanin = np.stack([1.0 + gained, 0.0 * gained, 0.0 * gained], axis=-1)
-    found = tanning_claims.kinetics(TanningHistory(hours, melanin, np.ones(hours.size)))
-    assert found.rise == 1.0
-    hours_found = 24 * np.array([found.peak, found.to_half, found.top, found.from_half])
-    assert hours_found == pytest.approx([128, 64, 13 + 25, 129])
+    times = tanning_claims.kinetics(TanningHistory(hours, melanin, np.ones(hours.size)))
+    assert times.rise == 1.0
+    hours_told = 24 * np.array([times.peak, times.to_half, times.top, times.from_half])
+    assert hours_told == pytest.approx([128, 64, 13 + 25, 129])
 
 
 def test_a_tan_rises_fast_has_a_broad_top_and_fades_slowly():
     """30 SED, intermediate set: half of the rise in 2 days, 11 at the top, 17 to lose half."""
-    found = tanning_claims.kinetics(tanning_claims.kinetic_history())
-    assert found.rise == pytest.approx(0.90, abs=0.005)
-    assert 9.0 <= found.peak <= 10.5
-    assert found.to_half < 0.25 * min(found.top, found.from_half)
-    assert found.top > 10.0 and found.from_half > 15.0
+    times = tanning_claims.kinetics(tanning_claims.kinetic_history())
+    assert times.rise == pytest.approx(0.90, abs=0.005)
+    assert 9.0 <= times.peak <= 10.5
+    assert times.to_half < 0.25 * min(times.top, times.from_half)
+    assert times.top > 10.0 and times.from_half > 15.0
 
 
 def test_darker_skin_needs_a_larger_dose_for_the_first_visible_tan():
@@ -174,14 +174,14 @@ def test_darker_skin_needs_a_larger_dose_for_the_first_visible_tan():
 
 def test_nothing_is_gained_below_the_minimal_dose():
     skin = tans.SKINS["high"]
-    found = tanning_claims.gain(skin, [0.99 * skin.mmd], quiet)
-    assert found.relative[0] < 1e-6 and found.difference[0] < 1e-3
+    gained = tanning_claims.gain(skin, [0.99 * skin.mmd], quiet)
+    assert gained.relative[0] < 1e-6 and gained.difference[0] < 1e-3
 
 
 def test_at_equal_multiples_of_the_minimal_dose_darker_skin_gains_more_melanin(gains):
     for measure in ("content", "per_area"):
-        found = np.array([getattr(each, measure) for each in gains])
-        assert np.all(np.diff(found, axis=0) > 0.0)
+        gained = np.array([getattr(gain, measure) for gain in gains])
+        assert np.all(np.diff(gained, axis=0) > 0.0)
 
 
 def test_at_equal_multiples_the_darkest_skin_changes_colour_more_than_the_lightest(gains):
@@ -190,20 +190,20 @@ def test_at_equal_multiples_the_darkest_skin_changes_colour_more_than_the_lighte
 
 def test_at_equal_multiples_the_gain_in_relative_melanin_is_nearly_the_same(gains):
     """Not more in darker skin: table 6.4 makes all three sets gain alike."""
-    found = np.array([each.relative for each in gains])
-    assert np.all(np.ptp(found[:, :1], axis=0) < 0.003)
-    assert np.all(np.ptp(found, axis=0) < 0.05)
-    assert np.all(found[2] < found[0])
+    gained = np.array([gain.relative for gain in gains])
+    assert np.all(np.ptp(gained[:, :1], axis=0) < 0.003)
+    assert np.all(np.ptp(gained, axis=0) < 0.05)
+    assert np.all(gained[2] < gained[0])
 
 
 def test_at_equal_doses_darker_skin_gains_less_relative_melanin():
-    found = np.array(
+    gained = np.array(
         [
             tans.single_doses(skin, [6.0, 12.0, 20.0], 20).total.max(axis=-1)
             for skin in tans.SKINS.values()
         ]
     )
-    assert np.all(np.diff(found, axis=0) <= 0.0) and np.all(found[0] > found[2] + 0.3)
+    assert np.all(np.diff(gained, axis=0) <= 0.0) and np.all(gained[0] > gained[2] + 0.3)
 
 
 def test_reflectance_converges_in_the_ultraviolet_when_melanin_grows():

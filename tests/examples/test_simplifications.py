@@ -23,9 +23,9 @@ ROOT = Path(__file__).parent.parent.parent
 WAVELENGTH = 500.0
 
 
-def absorbing_depth(layers):
+def absorbing_depth(stack):
     """Optical depth of all absorbers, melanosomes' taken by their content (4.3 for a complex)."""
-    return sum(each.thickness * each.absorption for each in layers.layers)
+    return sum(layer.thickness * layer.absorption for layer in stack.layers)
 
 
 @pytest.mark.parametrize("name", list(SPECIMENS))
@@ -33,10 +33,10 @@ def test_dissolved_melanosomes_keep_their_melanin(name):
     specimen = SPECIMENS[name]
     usual = variants.whole(specimen, WAVELENGTH)
     plain = variants.plain_absorber(specimen, WAVELENGTH)
-    assert all(each.encounter == 0.0 for each in plain.layers)
+    assert all(layer.encounter == 0.0 for layer in plain.layers)
     melanin = sum(
-        0.01 * getattr(specimen, f"{part}_melanosomes") * each.thickness * each.melanin_absorption
-        for part, each in zip(EPIDERMIS, usual.layers[1:4], strict=True)
+        0.01 * getattr(specimen, f"{part}_melanosomes") * layer.thickness * layer.melanin_absorption
+        for part, layer in zip(EPIDERMIS, usual.layers[1:4], strict=True)
     )
     assert absorbing_depth(plain) == pytest.approx(absorbing_depth(usual) + melanin, rel=1e-12)
 
@@ -44,10 +44,10 @@ def test_dissolved_melanosomes_keep_their_melanin(name):
 @pytest.mark.parametrize("name", list(SPECIMENS))
 @pytest.mark.parametrize("variant", [variants.one_epidermis, variants.spread_evenly])
 def test_melanin_moved_is_still_all_there(name, variant):
-    def amounts(layers):
-        epidermis = layers.layers[1:-2]
-        held = sum(each.thickness * each.encounter * each.semi_minor for each in epidermis)
-        return [held, absorbing_depth(layers), sum(each.thickness for each in layers.layers)]
+    def amounts(stack):
+        epidermis = stack.layers[1:-2]
+        held = sum(layer.thickness * layer.encounter * layer.semi_minor for layer in epidermis)
+        return [held, absorbing_depth(stack), sum(layer.thickness for layer in stack.layers)]
 
     specimen = SPECIMENS[name]
     moved = variant(specimen, WAVELENGTH)
@@ -66,18 +66,22 @@ def test_one_epidermis_of_like_layers_is_the_three():
 def test_what_is_left_out_is_gone():
     specimen = SPECIMENS["S4"]
     clear = variants.all_of_it(specimen, WAVELENGTH)
-    assert all(each.rayleigh == each.encounter == each.scattering == 0.0 for each in clear.layers)
+    assert all(
+        layer.rayleigh == layer.encounter == layer.scattering == 0.0 for layer in clear.layers
+    )
     usual = variants.whole(specimen, WAVELENGTH)
-    assert sum(each.rayleigh > 0.0 for each in usual.layers) == 1
-    assert all(each.rayleigh == 0.0 for each in variants.no_rayleigh(specimen, WAVELENGTH).layers)
+    assert sum(layer.rayleigh > 0.0 for layer in usual.layers) == 1
+    assert all(layer.rayleigh == 0.0 for layer in variants.no_rayleigh(specimen, WAVELENGTH).layers)
     rarer = variants.no_rare_pigments(specimen, WAVELENGTH)
     assert absorbing_depth(rarer) < absorbing_depth(usual)
 
 
 def test_tans_darken_and_fade():
     lightness = [
-        colour.lab(colour.linear_rec709(measures.COARSE, each))[0]
-        for each in light.reflectances(skins.tan(SPECIMENS["S3"]), measures.COARSE, variants.whole)
+        colour.lab(colour.linear_rec709(measures.COARSE, reflectance))[0]
+        for reflectance in light.reflectances(
+            skins.tan(SPECIMENS["S3"]), measures.COARSE, variants.whole
+        )
     ]
     assert int(np.argmin(lightness)) == skins.DAYS.index(10)
 
@@ -85,7 +89,7 @@ def test_tans_darken_and_fade():
 def test_random_skins_are_the_same_each_time_and_go_past_s4():
     drawn = skins.random_skins(100, 1)
     assert drawn == skins.random_skins(100, 1)
-    pigmentation = [each.pigmentation for each in drawn]
+    pigmentation = [skin.pigmentation for skin in drawn]
     assert min(pigmentation) < 0.01 and max(pigmentation) > SPECIMENS["S4"].pigmentation
 
 
@@ -113,15 +117,15 @@ def ring(distance: float, share: float) -> Spectrum:
         rays=1000,
         surface=np.array([0.04]),
         subsurface=np.array([share]),
-        **{each: none for each in light_fields()},
+        **{name: none for name in light_fields()},
         exit_counts=exits,
     )
 
 
 def light_fields():
     """Fields of a spectrum that a tan line does not look at."""
-    known = {"wavelengths", "rays", "surface", "subsurface", "exit_counts"}
-    return [each for each in Spectrum.__dataclass_fields__ if each not in known]
+    used = {"wavelengths", "rays", "surface", "subsurface", "exit_counts"}
+    return [name for name in Spectrum.__dataclass_fields__ if name not in used]
 
 
 def test_half_of_a_ring_lies_beyond_a_line_through_it_and_none_beyond_its_reach():
@@ -133,17 +137,17 @@ def test_half_of_a_ring_lies_beyond_a_line_through_it_and_none_beyond_its_reach(
 
 def test_a_line_between_like_skins_is_no_line():
     one = ring(2.0, 0.5)
-    found = edge.edge(one, one, np.ones((3, 1)))
-    assert found.cost == pytest.approx(np.zeros(found.places.size), abs=1e-9)
-    assert found.visible_to == 0.0
+    line = edge.edge(one, one, np.ones((3, 1)))
+    assert line.cost == pytest.approx(np.zeros(line.places.size), abs=1e-9)
+    assert line.visible_to == 0.0
 
 
 def test_light_crosses_a_line_as_far_as_the_ring_reaches():
-    found = edge.edge(ring(2.0, 0.5), ring(2.0, 0.25), np.ones((3, 1)))
-    assert 1.9 < found.visible_to < 2.1
-    assert found.mean_within(1.0) > found.mean_within(3.0) > 0.0
-    middle = found.places.size // 2
-    assert found.true[middle - 1 : middle + 1].mean() == pytest.approx(0.04 + 0.375, rel=1e-3)
+    line = edge.edge(ring(2.0, 0.5), ring(2.0, 0.25), np.ones((3, 1)))
+    assert 1.9 < line.visible_to < 2.1
+    assert line.mean_within(1.0) > line.mean_within(3.0) > 0.0
+    middle = line.places.size // 2
+    assert line.true[middle - 1 : middle + 1].mean() == pytest.approx(0.04 + 0.375, rel=1e-3)
 
 
 def row(what: str) -> measures.Row:
@@ -173,8 +177,8 @@ def findings(render: float | None) -> report.Findings:
 def test_the_page_has_every_row_and_no_number_missing(render, sentence):
     page = report.markdown(findings(render), datetime.date(2026, 1, 2), 60.0)
     assert sentence in page and "2026-01-02" in page and "1/100 of the time" in page
-    for each in ("all", "few", "gauss", "rays", "model"):
-        assert f"| {each} | 0.20, 0.30 | 2.0, 3.0 | 0.020 | 0.50 |  | 1.0 |" in page
+    for row in ("all", "few", "gauss", "rays", "model"):
+        assert f"| {row} | 0.20, 0.30 | 2.0, 3.0 | 0.020 | 0.50 |  | 1.0 |" in page
     assert "{" not in page and "nan" not in page
     tables = [part.split("\n") for part in page.split("\n\n") if part.startswith("|")]
     for lines in tables:

@@ -29,12 +29,15 @@ check_plain() {
         echo "The add-on is installed as a package of its own." >&2
         exit 1
     fi
+    git -C "$work/source" ls-files hylios lut_builder >tracked.txt
     python - <<'END'
 from importlib.metadata import files
+from pathlib import Path
 
-names = {str(path) for path in files("skin-tan")}
-assert any(name.endswith("licenses/LICENSE") for name in names), "no licence"
-assert "hylios/spectra/figures.csv" in names, "no data"
+installed = {str(path) for path in files("skin-tan")}
+assert any(name.endswith("licenses/LICENSE") for name in installed), "no licence"
+missing = set(Path("tracked.txt").read_text().splitlines()) - installed
+assert not missing, missing
 END
 }
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError, require_range, require_whole
-from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
 from hylios.sun.protection import BARE, sunscreen
+from hylios.table.provenance import absorptance
 from hylios.tanning import LARGEST_DOSE
 
 from .settings import LAST_DAY_LIMIT, Exposure
@@ -79,24 +79,6 @@ def begin(exposure: Exposure) -> int:
         require_range("hour of sun", exposure.from_hour, 0.0, 24.0)
         return 24 * int(exposure.day) + int(exposure.from_hour)
     return int(np.floor(24.0 * exposure.day + 0.5))
-
-
-def absorptance(provenance: Mapping[str, Any]) -> Absorptance:
-    """What the skin of a table absorbs in the ultraviolet.
-
-    Raises
-    ------
-    InputError
-        If the table does not say it.
-    """
-    try:
-        told = provenance["absorptance"]
-        return Absorptance(np.array(told["wavelengths_nm"]), np.array(told["values"]))
-    except (KeyError, OverflowError, TypeError, ValueError) as error:
-        raise InputError(
-            "the table does not say what its skin absorbs in the ultraviolet, as sun by date needs "
-            "it; give that exposure in SED, or build the table anew."
-        ) from error
 
 
 def _date(month: int, day: int) -> date:

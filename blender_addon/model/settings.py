@@ -7,6 +7,7 @@ from typing import Any
 
 from hylios.errors import InputError, require_range
 from hylios.history import LAST_DAY_LIMIT
+from hylios.table.provenance import MinimalDoses, minimal_doses
 
 LARGEST_MINIMAL_DOSE = 1000.0
 """In SED; a hundred times that of the darkest skin."""
@@ -55,22 +56,17 @@ class Exposure:
         return cls(**{field.name: getattr(source, field.name) for field in fields(cls)})
 
 
-@dataclass(frozen=True)
-class MinimalDoses:
-    """Doses in SED from which skin tans (`mmd`) and burns (`med`).
+def own_minimal_doses(mmd: float, med: float) -> MinimalDoses:
+    """Minimal doses that are set by hand, in SED.
 
     Raises
     ------
     InputError
         If one is not above 0, or too large.
     """
-
-    mmd: float
-    med: float
-
-    def __post_init__(self):
-        for name, value in (("minimal tanning dose", self.mmd), ("minimal burn dose", self.med)):
-            require_range(name, value, 1e-3, LARGEST_MINIMAL_DOSE, "SED")
+    for name, value in (("minimal tanning dose", mmd), ("minimal burn dose", med)):
+        require_range(name, value, 1e-3, LARGEST_MINIMAL_DOSE, "SED")
+    return MinimalDoses(mmd=mmd, med=med)
 
 
 @dataclass(frozen=True)
@@ -108,7 +104,7 @@ class TanSettings:
         Raises
         ------
         InputError
-            If the table's are to be used and are missing or out of range.
+            If the table's are to be used and it has none that can be used.
         """
         return self.own_doses or minimal_doses(provenance)
 
@@ -122,23 +118,3 @@ def check_days(first_day: float, last_day: float) -> None:
             f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
             f"to {LAST_DAY_LIMIT:g}."
         )
-
-
-def minimal_doses(provenance: Mapping[str, Any]) -> MinimalDoses:
-    """Minimal doses of a table's skin.
-
-    Raises
-    ------
-    InputError
-        If they are missing, no numbers or out of range.
-    """
-    doses = [provenance.get(name) for name in ("mmd_sed", "med_sed")]
-    for dose in doses:
-        if isinstance(dose, bool) or not isinstance(dose, int | float):
-            raise InputError(f"the table's minimal dose is {str(dose)[:40]!r}; expected a number.")
-        if not 0 < dose < LARGEST_MINIMAL_DOSE:  # integers may be larger than any float
-            raise InputError(
-                "the table's minimal dose is out of range; "
-                f"allowed is 0.001 to {LARGEST_MINIMAL_DOSE:g} SED."
-            )
-    return MinimalDoses(*map(float, doses))

@@ -7,9 +7,10 @@ import functools
 from pathlib import Path
 
 from hylios.errors import InputError
+from hylios.table.provenance import MinimalDoses, minimal_doses
 
 from . import catalogue, doses
-from .settings import Exposure, MinimalDoses, minimal_doses
+from .settings import Exposure
 
 SED_PER_HOUR_OF_SUMMER_SUN = 7.2
 """Erythemal dose of an hour at UV index 8: 8 x 25 mW/m^2 for an hour is 720 J/m^2."""

@@ -16,7 +16,13 @@ from bpy.props import (
 from hylios.errors import InputError
 
 from ..model.catalogue import FILE, shipped_path
-from ..model.settings import LAST_DAY_LIMIT, Exposure, MinimalDoses, TanSettings
+from ..model.settings import (
+    LAST_DAY_LIMIT,
+    Exposure,
+    MinimalDoses,
+    TanSettings,
+    own_minimal_doses,
+)
 from .exposure import SkinTanExposure
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
@@ -140,4 +146,4 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         """
         if not self.own_minimal_doses:
             return None
-        return MinimalDoses(mmd=self.mmd, med=self.med)
+        return own_minimal_doses(self.mmd, self.med)

@@ -32,6 +32,21 @@ def pixels(image) -> np.ndarray:
     return values.reshape(image.size[1], image.size[0], 4)
 
 
+def look(obj) -> bytes:
+    """All pixels that the tan groups in an object's first slot show."""
+    return b"".join(pixels(image).tobytes() for image in _images(obj.material_slots[0].material))
+
+
+def _images(block) -> list:
+    shown = []
+    for node in block.node_tree.nodes if hasattr(block, "node_tree") else block.nodes:
+        if node.bl_idname == "ShaderNodeTexImage" and node.image:
+            shown.append(node.image)
+        elif getattr(node, "node_tree", None):
+            shown.extend(_images(node.node_tree))
+    return shown
+
+
 def tan_object(table_path: Path, shares=None, dose: float = 30.0):
     """A row of unit squares along x, one to a share of the dose, with settings but no tan yet."""
     count = 1 if shares is None else len(shares)

@@ -8,8 +8,9 @@ import pytest
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import apply, pixels, tan_object
 
-from blender_addon.model import catalogue, settings
+from blender_addon.model import catalogue
 from hylios.table import read_table
+from hylios.table.provenance import minimal_doses
 
 MATERIAL = "Skin Tan Body"
 
@@ -42,7 +43,7 @@ def test_shipped_tables_can_be_loaded():
     for shipped in catalogue.SHIPPED:
         table = read_table(shipped.path)
         assert table.provenance["specimen"] == shipped.name
-        assert settings.minimal_doses(table.provenance).mmd > 0
+        assert minimal_doses(table.provenance).mmd > 0
 
 
 def test_shipped_skins_can_be_chosen_and_applied(body):

@@ -91,5 +91,3 @@ def test_a_table_without_absorptance_has_no_sun():
     exposure = Exposure(**{**USUAL, "unit": "SUN"})
     with pytest.raises(InputError, match="what its skin absorbs in the ultraviolet"):
         doses.received([exposure], 4.0, {})
-    with pytest.raises(InputError, match="what its skin absorbs"):
-        doses.absorptance({"absorptance": {"wavelengths_nm": None, "values": 3}})

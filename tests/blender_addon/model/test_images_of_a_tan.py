@@ -8,7 +8,7 @@ import pytest
 from synthetic import smooth_table
 
 from blender_addon.model import catalogue, doses, schedule
-from blender_addon.model.settings import Exposure, MinimalDoses, TanSettings
+from blender_addon.model.settings import Exposure, TanSettings, own_minimal_doses
 from blender_addon.model.tan import tan, tan_of
 from hylios import history
 from hylios.errors import InputError
@@ -67,7 +67,7 @@ def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
         return states_at(exposures, dynamics, **more)
 
     monkeypatch.setattr(history, "states_at", recorded)
-    values = settings(table_path, own_doses=MinimalDoses(mmd=6.0, med=4.0))
+    values = settings(table_path, own_doses=own_minimal_doses(6.0, 4.0))
     tan_of(values)
     assert (arguments["mmd"], arguments["med"]) == (6.0, 4.0)
     assert (arguments["times"].min(), arguments["times"].max()) == (72.0, 240.0)
@@ -97,29 +97,12 @@ def test_days_out_of_order(first_day, last_day, sentence):
         settings(Path(), first_day=first_day, last_day=last_day)
 
 
-@pytest.mark.parametrize("value", [10**400, "nan", float("nan"), -1, 0, [4.9], None, True, "4.9"])
-@pytest.mark.parametrize("name", ["mmd_sed", "med_sed"])
-def test_a_header_without_usable_minimal_doses(table, name, value):
-    with pytest.raises(InputError, match="the table's minimal dose"):
-        settings(Path()).minimal_doses(with_header(table, **{name: value}).provenance)
-
-
-@pytest.mark.parametrize(
-    "absorptance",
-    [
-        3,
-        [],
-        {"wavelengths_nm": None, "values": 3},
-        {"wavelengths_nm": [280, 400], "values": [0.5, 10**400]},
-        {"wavelengths_nm": [280, 400], "values": [0.5, float("nan")]},
-        {"wavelengths_nm": [280, 400], "values": ["a", "b"]},
-        {"wavelengths_nm": [280, 400], "values": [0.5]},
-        {"wavelengths_nm": [400, 280], "values": [0.5, 0.5]},
-    ],
-)
-def test_a_header_without_usable_absorptance(absorptance):
-    with pytest.raises(InputError, match="does not say what its skin absorbs in the ultraviolet"):
-        doses.absorptance({"absorptance": absorptance})
+@pytest.mark.parametrize("dose", [0.0, -1.0, float("nan"), 1e308])
+def test_minimal_doses_by_hand_out_of_range(dose):
+    with pytest.raises(InputError, match="minimal tanning dose is .* allowed is 0.001 to 1000"):
+        own_minimal_doses(dose, 4.0)
+    with pytest.raises(InputError, match="minimal burn dose is .* allowed is 0.001 to 1000"):
+        own_minimal_doses(4.0, dose)
 
 
 def test_text_of_a_header_cannot_break_a_schedule(table, tmp_path, monkeypatch):

@@ -48,7 +48,7 @@ def require_target(target: Path, suffixes: tuple[str, ...], replacing: bool) -> 
     if target.suffix.lower() not in suffixes:
         raise InputError(f"the file is to be {target}; its name must end in {_listed(suffixes)}.")
     if target.is_dir() or (target.exists() and not replacing):
-        hint = "it is a folder" if target.is_dir() else "--force replaces it"
+        hint = "it is a folder" if target.is_dir() else "replacing=True replaces it"
         raise InputError(f"{target} exists already; {hint}.")
     try:
         with tempfile.TemporaryFile(dir=target.parent):

@@ -32,7 +32,7 @@ def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Names
         command(arguments)
         sys.stdout.flush()
     except InputError as error:
-        print(f"error: {shown(str(error))}", file=sys.stderr)
+        print(f"error: {shown(_in_options(str(error)))}", file=sys.stderr)
         return 2
     except MemoryError:
         print("error: there is not enough memory for this.", file=sys.stderr)
@@ -48,6 +48,16 @@ def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Names
         discard_output()
         return 2
     return 0
+
+
+OPTIONS = {"with allow_unphysical": "with --allow-unphysical", "replacing=True": "--force"}
+"""What the library's sentences call its arguments, and what the shell calls them."""
+
+
+def _in_options(sentence: str) -> str:
+    for argument, option in OPTIONS.items():
+        sentence = sentence.replace(argument, option)
+    return sentence
 
 
 def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:

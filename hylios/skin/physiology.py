@@ -43,7 +43,7 @@ MOST_EPIDERMAL_MELANIN = 0.43
 
 
 def _read() -> Mapping[str, Physiology]:
-    text = files(__package__).joinpath("physiology.toml").read_text(encoding="utf-8")
+    text = files("hylios.skin").joinpath("physiology.toml").read_text(encoding="utf-8")
     ranges = tomllib.loads(text)
     shared = ranges.pop("sources")
     return MappingProxyType(

@@ -19,8 +19,9 @@ MELANOSOME_SCALE = {"granulosum": 0.25, "spinosum": 0.5, "basale": 1.0}
 """Size of the melanosomes of a layer relative to table 6.1 (degradation upwards, section 6.1.1)."""
 
 
-def _parameter(unit: str, low: float, high: float, what: str, **default: float) -> Any:
-    return field(metadata={"unit": unit, "low": low, "high": high, "what": what}, **default)
+def _parameter(unit: str, low: float, high: float, what: str, default: Any = MISSING) -> Any:
+    limits = {"unit": unit, "low": low, "high": high, "what": what}
+    return field(default=default, metadata=limits)
 
 
 def _fixed(value: float, unit: str, low: float, high: float, what: str) -> Any:
@@ -191,7 +192,7 @@ def specimen_of(values: Mapping[str, Any], *, allow_unphysical: bool = False) ->
     if not allow_unphysical and made.pigmentation > MOST_EPIDERMAL_MELANIN:
         raise InputError(
             f"melanin is {100 * made.pigmentation:g} % of the epidermis; physiological is 0 to "
-            f"{100 * MOST_EPIDERMAL_MELANIN:g} %, allowed is 0 to 100 % with --allow-unphysical."
+            f"{100 * MOST_EPIDERMAL_MELANIN:g} %, allowed is 0 to 100 % with allow_unphysical."
         )
     return made
 
@@ -208,7 +209,7 @@ def _require_physiological_ranges(values: Mapping[str, Any]) -> None:
             raise InputError(
                 f"{name} is {value:g}{unit}; physiological is {physiology.low:g} to "
                 f"{physiology.high:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
-                "--allow-unphysical."
+                "allow_unphysical."
             )
 
 
@@ -317,7 +318,7 @@ def _melanosome_share(specimen: Specimen, layer: str) -> float:
 
 
 def _read() -> Mapping[str, Specimen]:
-    text = files(__package__).joinpath("specimens.toml").read_text(encoding="utf-8")
+    text = files("hylios.skin").joinpath("specimens.toml").read_text(encoding="utf-8")
     return MappingProxyType(
         {name: Specimen(name=name, **values) for name, values in tomllib.loads(text).items()}
     )

@@ -189,7 +189,11 @@ def test_what_the_command_prints_as_toml_every_command_reads(written, capsys):
 
 
 def test_an_unphysical_file_needs_the_option(written, capsys):
-    path = str(written('base = "S3"\npapillary_blood = 0\n'))
-    assert main(["specimen", path]) == 2
-    assert "ada.toml cannot be used: papillary_blood is 0 %" in capsys.readouterr().err
-    assert main(["specimen", path, "--allow-unphysical"]) == 0
+    path = written('base = "S3"\npapillary_blood = 0\n')
+    assert main(["specimen", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "ada.toml cannot be used: papillary_blood is 0 %" in said
+    assert "allowed is 0 to 100 % with --allow-unphysical." in said
+    with pytest.raises(InputError, match="allowed is 0 to 100 % with allow_unphysical."):
+        read_specimen(path)
+    assert main(["specimen", str(path), "--allow-unphysical"]) == 0

@@ -28,7 +28,7 @@ numpydoc_show_class_members = False
 default_role = "code"
 highlight_language = "none"  # most blocks are shells; Python says so
 
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "html_image"]
 myst_heading_anchors = 3
 
 nb_execution_mode = "force"

@@ -75,7 +75,7 @@ def requested(
 
 def units(request: Request) -> list[Unit]:
     """The work of a request."""
-    return [Unit(each.name, computed, (request, each), each.size) for each in pieces(request)]
+    return [Unit(piece.name, computed, (request, piece), piece.size) for piece in pieces(request)]
 
 
 def build(
@@ -127,9 +127,9 @@ def _state_plane(request: Request, within: float) -> np.ndarray:
 
 def _nearest_computed(needed: np.ndarray) -> np.ndarray:
     """For each knot the number of the computed state that stands for it, its own or the nearest."""
-    known = np.argwhere(needed)
+    computed_knots = np.argwhere(needed)
     return np.array(
-        [((known - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
+        [((computed_knots - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
     )
 
 
@@ -137,10 +137,10 @@ def _reflectance_planes(
     settings: Settings, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
     """Colours and bands, (states, components)."""
-    colours = sorted((each for each in parts if each.kind == "colours"), key=lambda p: p.first)
-    found = [results[each.name] for each in colours]
-    subsurface = np.concatenate([each["subsurface"] for each in found])
-    total = subsurface + np.concatenate([each["surface"] for each in found])
+    colours = sorted((piece for piece in parts if piece.kind == "colours"), key=lambda p: p.first)
+    piece_results = [results[piece.name] for piece in colours]
+    subsurface = np.concatenate([piece["subsurface"] for piece in piece_results])
+    total = subsurface + np.concatenate([piece["surface"] for piece in piece_results])
     planes = {}
     count = settings.colour_wavelengths
     if count:
@@ -173,17 +173,19 @@ def _profile_planes(
     """
     from hylios.transport.reuse import Profiles  # numba
 
-    walked = sorted((each for each in parts if each.kind == "profile"), key=lambda p: p.wavelength)
-    found = [results[each.name] for each in walked]
-    light = np.stack([each["light"] for each in found], axis=1)
-    squares = np.stack([each["squares"] for each in found], axis=1)
+    walked = sorted(
+        (piece for piece in parts if piece.kind == "profile"), key=lambda p: p.wavelength
+    )
+    walks = [results[piece.name] for piece in walked]
+    light = np.stack([piece["light"] for piece in walks], axis=1)
+    squares = np.stack([piece["squares"] for piece in walks], axis=1)
     widths, errors, samples = [], [], []
     for weights in skin_quadrature(settings.profile_wavelengths).weights:
         channel = Profiles(
             light=np.einsum("w,swb->sb", weights, light),
             squares=np.einsum("w,swb->sb", weights**2, squares),
-            rays=found[0]["rays"],
-            anew=found[0]["anew"],
+            rays=walks[0]["rays"],
+            anew=walks[0]["anew"],
         )
         widths.append(channel_widths(channel.light))
         errors.append(channel.standard_error.max(axis=1))
@@ -227,11 +229,11 @@ def provenance(request: Request) -> dict:
     }
 
 
-def _absorptance(found: Mapping[str, np.ndarray]) -> dict:
+def _absorptance(tabulated: Mapping[str, np.ndarray]) -> dict:
     """What the untanned skin absorbs of ultraviolet, for doses of the sun."""
     return {
-        "wavelengths_nm": found["wavelengths"].tolist(),
-        "values": np.round(found["values"], 5).tolist(),
+        "wavelengths_nm": tabulated["wavelengths"].tolist(),
+        "values": np.round(tabulated["values"], 5).tolist(),
     }
 
 

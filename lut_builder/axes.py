@@ -7,6 +7,7 @@ that sunshine can bring about lie near a curved sheet; its principal axes are th
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin
 from hylios.table import StateAxes
 from hylios.tanning import Exposures
@@ -15,6 +16,9 @@ DAYS = 60
 MOST_EXPOSURES = 11
 LEAST_DOSE, MOST_DOSE = 0.35, 10.5
 """Of the random schedules: days, exposures, and doses as multiples of the MMD."""
+
+HOURS_BETWEEN = 2.0
+"""Two looks at the skin in a scene."""
 
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
@@ -38,6 +42,25 @@ def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
         schedule[when] = skin.mmd * random.uniform(LEAST_DOSE, MOST_DOSE, exposures)
     history = skin.history(Exposures(np.arange(hours), doses), hours)
     return history.states[:, ::6].reshape(-1, 4)
+
+
+def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
+    """States (N, 4) of a skin anywhere on a body, from day 0 to a last one.
+
+    Raises
+    ------
+    InputError
+        If the last day is out of range.
+    """
+    last = 24.0 * require_last_day(days)
+    history = history_of_shares(
+        exposures,
+        skin.dynamics,
+        hours=np.append(np.arange(0.0, last, HOURS_BETWEEN), last),
+        mmd=skin.mmd,
+        med=skin.med,
+    )
+    return history.states.reshape(-1, 4)
 
 
 def untanned_state(skin: Skin) -> np.ndarray:

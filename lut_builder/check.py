@@ -97,8 +97,8 @@ def check(
         return Check(states, difference(seen, _solved(specimens, model, told)))
     direct, spread = _walked(specimens, model, rays, seed, threads, told)
     noise = [
-        difference(own + random.multivariate_normal(np.zeros(3), each, NOISE_DRAWS), own)
-        for own, each in zip(direct, spread, strict=True)
+        difference(own + random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS), own)
+        for own, covariance in zip(direct, spread, strict=True)
     ]
     return Check(states, difference(seen, direct), np.array(noise))
 
@@ -108,7 +108,7 @@ def _solved(specimens: list[Specimen], model: Model, told: Progress) -> np.ndarr
     total = np.empty((FINE.size, len(specimens)))
     for row, wavelength in zip(total, FINE, strict=True):
         row[:] = solve(
-            [Stack.of(each, float(wavelength), model) for each in specimens], ANGLE
+            [Stack.of(specimen, float(wavelength), model) for specimen in specimens], ANGLE
         ).total
         told(len(specimens) / FINE.size)
     return (rec709_weights(FINE) @ total).T
@@ -126,7 +126,7 @@ def _walked(
     few = skin_quadrature(MOST)
     colours, spread = [], []
     for index, specimen in enumerate(specimens):
-        found = walked(
+        spectrum = walked(
             specimen,
             few.wavelengths,
             angle=ANGLE,
@@ -135,8 +135,8 @@ def _walked(
             threads=threads,
             model=model,
         )
-        colours.append(few.weights @ found.total)
-        spread.append((few.weights * found.standard_error**2) @ few.weights.T)
+        colours.append(few.weights @ spectrum.total)
+        spread.append((few.weights * spectrum.standard_error**2) @ few.weights.T)
         told(1)
     return np.array(colours), np.array(spread)
 

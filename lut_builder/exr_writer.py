@@ -1,5 +1,6 @@
 """Writing a `SkinTable` as an EXR file with OpenImageIO (layout: `docs/table_format.md`)."""
 
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -34,14 +35,26 @@ def write_table(path: Path, table: SkinTable, *, half: bool = False) -> None:
     channels = list(stored.channels.values())
     specification = _specification(stored, table.provenance.get("software", "lut_builder"))
     pixels = np.stack(channels, axis=-1, dtype=np.float32)
+    try:
+        content = _encoded(specification, pixels)
+    except OSError as error:
+        raise InputError(f"the table {path} cannot be written: {error}.") from error
     with written_beside(path) as beside:
-        output = oiio.ImageOutput.create(str(beside))
-        if output is None:
-            raise InputError(f"the table {path} cannot be written: {oiio.geterror()}.")
-        written = output.open(str(beside), specification) and output.write_image(pixels)
-        if not (output.close() and written):
-            raise InputError(f"the table {path} cannot be written: {output.geterror()}.")
+        beside.write_bytes(content)
         _require_written(path, beside, stored, half)
+
+
+def _encoded(specification: oiio.ImageSpec, pixels: np.ndarray) -> bytes:
+    """The bytes of a file, by way of one whose name OpenImageIO takes: a path may be no UTF-8."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "table.exr"
+        output = oiio.ImageOutput.create(str(file))
+        if output is None:
+            raise OSError(oiio.geterror())
+        written = output.open(str(file), specification) and output.write_image(pixels)
+        if not (output.close() and written):
+            raise OSError(output.geterror())
+        return file.read_bytes()
 
 
 def _specification(stored: StoredTable, software: str) -> oiio.ImageSpec:
@@ -50,7 +63,7 @@ def _specification(stored: StoredTable, software: str) -> oiio.ImageSpec:
     specification = oiio.ImageSpec(columns, rows, len(channels), oiio.FLOAT)
     specification.channelnames = tuple(stored.channels)
     specification.channelformats = tuple(
-        oiio.TypeHalf if each.dtype == np.float16 else oiio.TypeFloat for each in channels
+        oiio.TypeHalf if pixels.dtype == np.float16 else oiio.TypeFloat for pixels in channels
     )
     specification.attribute("compression", "zip")
     specification.attribute("Software", software)

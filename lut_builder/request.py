@@ -95,12 +95,12 @@ class Piece:
 
 def pieces(request: Request) -> list[Piece]:
     """All pieces of a request, the longest first."""
-    found = [
+    listed = [
         Piece("absorptance", "absorptance", ULTRAVIOLET_SECONDS),
         *_profiles(request),
         *_colours(request),
     ]
-    return sorted(found, key=lambda piece: -piece.size)
+    return sorted(listed, key=lambda piece: -piece.size)
 
 
 def wavelengths(settings: Settings) -> np.ndarray:
@@ -131,14 +131,14 @@ def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
 
 
 def _absorbed(request: Request) -> dict[str, np.ndarray]:
-    found = tabulated(request.skin.specimen, model=request.model)
-    return {"wavelengths": found.wavelengths, "values": found.values}
+    table = tabulated(request.skin.specimen, model=request.model)
+    return {"wavelengths": table.wavelengths, "values": table.values}
 
 
 def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
     from hylios.transport.reuse import skin_profiles  # numba
 
-    (found,) = skin_profiles(
+    (profiles,) = skin_profiles(
         _specimens(request, request.states),
         [wavelength],
         error=request.settings.profile_error,
@@ -148,10 +148,10 @@ def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
         model=request.model,
     )
     return {
-        "light": found.light,
-        "squares": found.squares,
-        "rays": found.rays,
-        "anew": found.anew,
+        "light": profiles.light,
+        "squares": profiles.squares,
+        "rays": profiles.rays,
+        "anew": profiles.anew,
     }
 
 
@@ -160,29 +160,29 @@ def _profiles(request: Request) -> Iterator[Piece]:
     if settings.has_profile:
         paths = len(request.states) * 0.25 / settings.profile_error**2
         size = PROFILE_SECONDS + paths * PATH_SECONDS
-        for each in skin_quadrature(settings.profile_wavelengths).wavelengths:
-            name = f"profile-{each:g}nm"
-            yield Piece(name, "profile", size, wavelength=float(each))
+        for band in skin_quadrature(settings.profile_wavelengths).wavelengths:
+            name = f"profile-{band:g}nm"
+            yield Piece(name, "profile", size, wavelength=float(band))
 
 
 def _colours(request: Request) -> Iterator[Piece]:
     settings = request.settings
-    each = COLOUR_SECONDS * (settings.nodes / NODES) ** 2 * wavelengths(settings).size
+    seconds = COLOUR_SECONDS * (settings.nodes / NODES) ** 2 * wavelengths(settings).size
     count = len(request.states)
     for first in range(0, count, STATES_TOGETHER):
         last = min(first + STATES_TOGETHER, count)
-        yield Piece(f"colours-{first}", "colours", each * (last - first), first, last)
+        yield Piece(f"colours-{first}", "colours", seconds * (last - first), first, last)
 
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
-    found = spectra(
+    light = spectra(
         _specimens(request, states),
         wavelengths(request.settings),
         angle=ANGLE,
         nodes=request.settings.nodes,
         model=request.model,
     )
-    return {"surface": found.surface, "subsurface": found.subsurface}
+    return {"surface": light.surface, "subsurface": light.subsurface}
 
 
 def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:

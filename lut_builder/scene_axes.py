@@ -43,8 +43,8 @@ def laid_over(whole: StateAxes, reached: np.ndarray) -> tuple[StateAxes, np.ndar
     knots, off = (np.zeros(1),), np.zeros((1, 3))
     for count in range(1, max(several, 1) + 1):
         knots = tuple(
-            _knots_over(each, -low, high)
-            for each, low, high in zip(own[:count], *ends, strict=False)
+            _knots_over(whole_knots, -low, high)
+            for whole_knots, low, high in zip(own[:count], *ends, strict=False)
         )
         off, left = _sheet(knots, places[:, :count], places[:, count:])
         if np.all(left[: several - count] <= NEAR):
@@ -63,10 +63,10 @@ def farthest(
     """
     ratios = np.log(reached / axes.untanned)
     ratios = ratios[_representatives(ratios)]
-    found = interpolate(
+    looked_up = interpolate(
         interpolation, axes.knots, np.log(knot_states / axes.untanned), ratios @ axes.basis
     )
-    return float(np.abs(found - ratios).max()) + NEAR
+    return float(np.abs(looked_up - ratios).max()) + NEAR
 
 
 def _all_directions(whole: StateAxes) -> np.ndarray:
@@ -119,12 +119,12 @@ def _sheet(
         BENDING * (bends.T @ bends) + RIDGE * _identity(size)
     )
     free = np.flatnonzero(np.any(np.stack(np.meshgrid(*knots, indexing="ij")), axis=0))
-    found = np.zeros((size, off.shape[1]))
+    sheet = np.zeros((size, off.shape[1]))
     if free.size and off.shape[1]:
         wanted = (weights.T @ off)[free]
         solved = spsolve(normal.tocsc()[free][:, free], wanted)
-        found[free] = np.reshape(np.asarray(solved), wanted.shape)
-    return found, np.abs(weights @ found - off).max(axis=0)
+        sheet[free] = np.reshape(np.asarray(solved), wanted.shape)
+    return sheet, np.abs(weights @ sheet - off).max(axis=0)
 
 
 def _weights(knots: tuple[np.ndarray, ...], places: np.ndarray) -> csr_array:

@@ -53,11 +53,11 @@ _BANDS = list_of(number(FIRST_NM, LAST_NM, "nm"), 0, MOST_BANDS)
 
 def _specimen(name: str, value: Any) -> None:
     holding({"name": text, "melanosome_arrangement": text})(name, value)
-    known = {field.name: field.default is MISSING for field in fields(Specimen)}
+    parameters = {field.name: field.default is MISSING for field in fields(Specimen)}
     for key in value:
-        if key not in known:
+        if key not in parameters:
             raise InputError(f"the table's {name} has {shown(key)}, which no specimen has.")
-    for key, is_needed in known.items():
+    for key, is_needed in parameters.items():
         if is_needed and key not in value:
             raise InputError(f"the table's {name} has no {key}.")
     try:

@@ -53,20 +53,20 @@ class SkinTable:
         InputError
             If a state has a number that is not above 0, or if the table has no such plane.
         """
-        asked = tuple(self.planes if names is None else names)
-        for name in asked:
+        wanted = tuple(self.planes if names is None else names)
+        for name in wanted:
             if name not in self.planes:
                 raise InputError(f"the table has no plane {name}; it has {', '.join(self.planes)}.")
         coordinates = self.axes.coordinates(states)
-        joined = np.concatenate([self.planes[name] for name in asked], axis=-1)
-        found = interpolate(
+        joined = np.concatenate([self.planes[name] for name in wanted], axis=-1)
+        numbers = interpolate(
             self.interpolation,
             self.axes.knots,
             joined,
             coordinates.reshape(-1, coordinates.shape[-1]),
         ).reshape(*coordinates.shape[:-1], -1)
-        ends = np.cumsum([self.planes[name].shape[-1] for name in asked])
-        return dict(zip(asked, np.split(found, ends[:-1], axis=-1), strict=True))
+        ends = np.cumsum([self.planes[name].shape[-1] for name in wanted])
+        return dict(zip(wanted, np.split(numbers, ends[:-1], axis=-1), strict=True))
 
     def holds(self, states: np.ndarray) -> np.ndarray:
         """Whether the table says something of tanning states (..., 4), bool (...).
@@ -81,9 +81,9 @@ class SkinTable:
         """
         if "state" not in self.planes:
             return np.ones(states.shape[:-1], bool)
-        found = self.plane("state", states)
-        apart = np.abs(found[..., :4] - np.log(states / self.axes.untanned)).max(axis=-1)
-        return apart <= found[..., 4]
+        nearest = self.plane("state", states)
+        apart = np.abs(nearest[..., :4] - np.log(states / self.axes.untanned)).max(axis=-1)
+        return apart <= nearest[..., 4]
 
     def plane(self, name: str, states: np.ndarray) -> np.ndarray:
         """One plane at tanning states (..., 4), shape (..., components)."""

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Generator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import active_children, get_context
+from multiprocessing import get_context
 from typing import Protocol
 
 from hylios.errors import InputError
@@ -48,10 +48,10 @@ def in_processes(count: int) -> Runner:
 
     def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
         context = get_context("spawn")
-        # This process alone holds the writing end: however it ends, that is closed, and the others
-        # notice.
+        # This process alone holds the writing end. Closed, by us or by our end, it ends the others:
+        # a pool cannot end what its processes are at (before Python 3.14), nor does it when it is
+        # killed itself.
         reader, writer = context.Pipe(duplex=False)
-        others = set(active_children())
         pool = ProcessPoolExecutor(
             min(count, len(units)), context, initializer=_prepare, initargs=(reader,)
         )
@@ -63,11 +63,8 @@ def in_processes(count: int) -> Runner:
                 "a process at work was ended from outside; was there too little memory for as many?"
             ) from error
         finally:
-            # A pool has no way (before Python 3.14) to end what its processes are at.
-            for process in set(active_children()) - others:
-                process.kill()
-            pool.shutdown(cancel_futures=True)
             writer.close()
+            pool.shutdown(cancel_futures=True)
             reader.close()
 
     return run
@@ -98,6 +95,6 @@ def _prepare(reader: Pipe) -> None:
 
 
 def _end_with_parent(reader: Pipe) -> None:
-    """A pool's processes go on by themselves when the one that started them was killed."""
+    """Wait until the writing end of a pipe is closed, and end this process then."""
     reader.poll(None)
     os._exit(1)

@@ -85,10 +85,10 @@ def unfinished(
     Interrupted
         On KeyboardInterrupt when a unit is done.
     """
-    folder = target.with_name(target.name + ".unfinished")
-    _require_ours(folder)
+    folder = target.parent / f"{target.name}.unfinished"
     # A run may have been killed after its target was written and before its folder was gone.
     require_target(target, suffixes, replace or (resume and folder.is_dir()))
+    _require_ours(folder)
     if not resume and not replace and _has_units(folder):
         raise UnfinishedWorkError(f"there is unfinished work in {folder}.")
     work = Work(folder, folder / f"{OURS}result{target.suffix}")

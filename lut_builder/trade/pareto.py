@@ -30,12 +30,12 @@ def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GA
     ----------
     seconds, errors : (N,) arrays
     """
-    chosen, least = [], np.inf
+    kept, least = [], np.inf
     for number in np.lexsort((errors, seconds)):
         if errors[number] < (1.0 - gain) * least:
-            chosen.append(number)
+            kept.append(number)
             least = errors[number]
-    return np.array(chosen, dtype=int)
+    return np.array(kept, dtype=int)
 
 
 def worst(skins: Sequence[Sequence[Point]]) -> list[Point]:

@@ -88,7 +88,7 @@ def other_window(data: bytearray, random) -> bytearray:
 
 def other_channels(data: bytearray, random) -> bytearray:
     """A channel's pixel type, spacing or name."""
-    channels = [found.end() for found in re.finditer(rb"\.[RGB]\0", bytes(data))]
+    channels = [match.end() for match in re.finditer(rb"\.[RGB]\0", bytes(data))]
     if not channels:
         return data
     place = channels[random.integers(len(channels))] + (0, 8, 12, -2)[random.integers(4)]
@@ -138,7 +138,7 @@ def other_json(data: bytearray, random) -> bytearray:
 
 
 def _edited(text: str, random) -> str:
-    numbers = [found.span() for found in re.finditer(r"-?\d+\.?\d*", text)]
+    numbers = [match.span() for match in re.finditer(r"-?\d+\.?\d*", text)]
     if not numbers:
         return "{}"
     start, end = numbers[random.integers(len(numbers))]
@@ -213,4 +213,4 @@ def _blocks(data: bytearray) -> tuple[int, list[int]]:
     if count < 1:
         return 0, []
     places = struct.unpack_from(f"<{count}Q", data, table)
-    return table, [each for each in places if each + 8 <= len(data)]
+    return table, [block for block in places if block + 8 <= len(data)]

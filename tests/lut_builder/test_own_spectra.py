@@ -39,8 +39,8 @@ def test_the_header_says_which_spectra_are_own_and_their_digests(table):
 
 
 def test_a_table_is_checked_with_the_spectra_that_it_was_made_with(table):
-    found = check(table, count=2, seed=1, spectra=own(2.0, "moved.csv"))
-    assert found.differences.shape == (2,)
+    result = check(table, count=2, seed=1, spectra=own(2.0, "moved.csv"))
+    assert result.differences.shape == (2,)
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,10 @@ from hylios.skin.phototypes import phototype
 from hylios.table import from_stored, to_stored
 from hylios.tanning import Exposures
 from lut_builder.assemble import build, requested
-from lut_builder.axes import choose_axes, reachable_states, untanned_state
+from lut_builder.axes import choose_axes, reachable_states, reached_states, untanned_state
 from lut_builder.check import check
 from lut_builder.request import ANGLE, pieces
 from lut_builder.scene_axes import NEAR, farthest, laid_over
-from lut_builder.schedule import reached_states
 from lut_builder.settings import Settings
 
 SKINS = {name: phototype(name).skin for name in ("I", "III", "VI")}
@@ -44,8 +43,8 @@ def colours(skin, states: np.ndarray) -> np.ndarray:
     """From the wavelengths of `COLOURS`: what a table differs by is its interpolation's error."""
     few = skin_quadrature(COLOURS.colour_wavelengths)
     specimens = [skin.at(state) for state in states]
-    found = spectra(specimens, few.wavelengths, angle=ANGLE, nodes=COLOURS.nodes)
-    return (found.surface + found.subsurface) @ few.weights.T
+    light = spectra(specimens, few.wavelengths, angle=ANGLE, nodes=COLOURS.nodes)
+    return (light.surface + light.subsurface) @ few.weights.T
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +73,7 @@ MORE_CASES = [
 
 @pytest.mark.parametrize(
     ("name", "sun", "interpolation", "most"),
-    [*CASES, *(pytest.param(*each, marks=pytest.mark.slow) for each in MORE_CASES)],
+    [*CASES, *(pytest.param(*case, marks=pytest.mark.slow) for case in MORE_CASES)],
 )
 def test_a_scene_s_table_is_as_near_the_model_of_fewer_states(
     whole, name, sun, interpolation, most
@@ -86,7 +85,9 @@ def test_a_scene_s_table_is_as_near_the_model_of_fewer_states(
     assert part.provenance["states_computed"] <= most * full.provenance["states_computed"]
     states = some(reached, skin, 60)
     expected = colours(skin, states)
-    own, other = (difference(each.plane("total_colour", states), expected) for each in (part, full))
+    own, other = (
+        difference(table.plane("total_colour", states), expected) for table in (part, full)
+    )
     assert own.mean() < other.mean()
     assert own.max() < other.max()
     assert part.holds(reached).all()
@@ -103,7 +104,7 @@ def test_a_scene_s_knots(knots, sun):
     assert np.abs(states.reshape(-1, 4) - untanned_state(skin)).max(axis=1).min() < 1e-12
     assert states.size <= full.knot_states().size
     assert axes.basis.T @ axes.basis == pytest.approx(np.eye(len(axes.knots)), abs=1e-12)
-    several = [each for each in full.knots if len(each) > 1]
+    several = [knots_of_axis for knots_of_axis in full.knots if len(knots_of_axis) > 1]
     for own, other in zip(axes.knots, several, strict=False):
         assert np.diff(own).max() <= 1.26 * np.diff(other).max()
     assert axes.coordinates(states) == pytest.approx(
@@ -130,7 +131,7 @@ def test_all_that_a_lookup_where_the_sun_leads_reads_is_computed(interpolation):
     request = requested(skin, replace(COLOURS, interpolation=interpolation), reached=reached)
     count = len(request.states)
     assert 0 < count == request.needed.sum()
-    assert sum(each.last - each.first for each in pieces(request)) == count
+    assert sum(piece.last - piece.first for piece in pieces(request)) == count
     table = build(skin, replace(COLOURS, interpolation=interpolation), reached=reached)
     random = np.random.default_rng(1)
     noise = random.random((*request.needed.shape, 3))
@@ -138,8 +139,8 @@ def test_all_that_a_lookup_where_the_sun_leads_reads_is_computed(interpolation):
 
     def changed(where: np.ndarray) -> bool:
         other = table.planes["total_colour"] + np.where(where[..., None], noise, 0.0)
-        found = replace(table, planes={"total_colour": other}).plane("total_colour", reached)
-        return not np.array_equal(found, expected)
+        colour = replace(table, planes={"total_colour": other}).plane("total_colour", reached)
+        return not np.array_equal(colour, expected)
 
     assert not changed(~request.needed)
     if interpolation == "linear":
@@ -157,7 +158,7 @@ def test_a_scene_s_table_holds_no_more_than_it_should():
     reached = scene(skin, "a week")
     table = from_stored(to_stored(build(skin, COLOURS, reached=reached), half=True))
     assert table.holds(reached).all()
-    others = some(reachable_states(skin, 60, seed=8), skin, 400)
+    others = some(reachable_states(skin, 60, seed=8), skin, 150)
     held = table.holds(others)
     assert 0.02 < held.mean() < 0.6
     off = difference(table.plane("total_colour", others), colours(skin, others))
@@ -184,8 +185,8 @@ def test_a_scene_without_sun_is_one_state(name, tmp_path):
     assert (table.axes.shape, table.provenance["states_computed"]) == ((1,), 1)
     untanned = untanned_state(skin)
     assert table.holds(untanned) and not table.holds(untanned * 1.05)
-    found = table.plane("total_colour", untanned[None])
-    assert found == pytest.approx(colours(skin, untanned[None]), abs=1e-6)
+    colour = table.plane("total_colour", untanned[None])
+    assert colour == pytest.approx(colours(skin, untanned[None]), abs=1e-6)
 
 
 def test_a_scene_of_skin_that_makes_no_melanin_in_the_sun(whole):

@@ -92,32 +92,32 @@ def outcomes(path: Path, storage: str, count: int) -> dict[str, int]:
     """How many of `count` mutated files gave the table and how many were refused."""
     table = made(1)
     data, other = written(path, table, storage), written(path, made(2), storage)
-    found = {"table": 0, "refused": 0}
+    counts = {"table": 0, "refused": 0}
     for number in range(count):
         random = np.random.default_rng((STORAGES.index(storage), number))
         path.write_bytes(mutated(data, other, random))
         began = time.process_time()
         try:
             assert same(read_table(path), table), f"{storage}, number {number}: a wrong table"
-            found["table"] += 1
+            counts["table"] += 1
         except InputError as refusal:
             assert "\n" not in str(refusal), f"{storage}, number {number}: {refusal}"
-            found["refused"] += 1
+            counts["refused"] += 1
         assert time.process_time() - began < 2.0, f"{storage}, number {number}: too long"
-    return found
+    return counts
 
 
 @pytest.mark.parametrize("storage", STORAGES)
 def test_a_damaged_file_is_the_table_or_refused(tmp_path, storage):
-    found = outcomes(tmp_path / "t.exr", storage, 250)
-    assert found["table"] > 2 and found["refused"] > 125
+    counts = outcomes(tmp_path / "t.exr", storage, 250)
+    assert counts["table"] > 2 and counts["refused"] > 125
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("storage", STORAGES)
 def test_ten_thousand_damaged_files_are_the_table_or_refused(tmp_path, storage):
-    found = outcomes(tmp_path / "t.exr", storage, 2500)
-    assert sum(found.values()) == 2500
+    counts = outcomes(tmp_path / "t.exr", storage, 2500)
+    assert sum(counts.values()) == 2500
 
 
 @pytest.mark.slow

@@ -38,10 +38,10 @@ def test_on_a_line_it_is_scipy_s(numbers, seed):
 @given(lines, steps, st.sampled_from(["linear", "pchip"]))
 def test_on_a_line_order_is_kept_and_nothing_overshoots(numbers, seed, kind):
     values, knots = np.sort(numbers), random_knots(np.random.default_rng(seed), len(numbers))
-    found = along(kind, knots, values, np.linspace(knots[0] - 0.1, knots[-1] + 0.1, 400))
+    between = along(kind, knots, values, np.linspace(knots[0] - 0.1, knots[-1] + 0.1, 400))
     rounding = 1e-12 * np.abs(values).max()
-    assert np.diff(found).min() >= -rounding
-    assert found[0] == values[0] and found[-1] == values[-1]
+    assert np.diff(between).min() >= -rounding
+    assert between[0] == values[0] and between[-1] == values[-1]
 
 
 @settings(max_examples=100, deadline=None)
@@ -80,8 +80,8 @@ def test_along_every_line_of_the_grid_pchip_is_the_cubic_of_that_line():
         at = [*knots]
         at[axis] = positions
         grid = np.stack(np.meshgrid(*at, indexing="ij"), axis=-1)
-        found = interpolate("pchip", knots, values, grid.reshape(-1, 3)).reshape(expected.shape)
-        assert np.allclose(found, expected, atol=1e-12)
+        on_grid = interpolate("pchip", knots, values, grid.reshape(-1, 3)).reshape(expected.shape)
+        assert np.allclose(on_grid, expected, atol=1e-12)
 
 
 def test_pchip_is_smooth_from_cell_to_cell():
@@ -115,9 +115,9 @@ def test_many_positions_are_each_as_if_alone():
     positions = random.uniform(-2.0, 3.0, (CHUNK + 50, 3))
     some = [0, 7, CHUNK - 1, CHUNK, CHUNK + 49]
     for kind in ("linear", "pchip"):
-        found = interpolate(kind, knots, values, positions)
-        alone = [interpolate(kind, knots, values, positions[[each]])[0] for each in some]
-        assert np.allclose(found[some], alone, rtol=1e-13)
+        together = interpolate(kind, knots, values, positions)
+        alone = [interpolate(kind, knots, values, positions[[position]])[0] for position in some]
+        assert np.allclose(together[some], alone, rtol=1e-13)
     assert interpolate("pchip", knots, values, positions[:0]).shape == (0, 2)
 
 

@@ -42,10 +42,10 @@ def table():
 @pytest.mark.parametrize("interpolation", ["linear", "pchip"])
 def test_table_gives_its_values_at_the_knots(table, interpolation):
     states = table.axes.knot_states()
-    found = replace(table, interpolation=interpolation).lookup(states)
-    assert list(found) == list(table.planes)
+    planes = replace(table, interpolation=interpolation).lookup(states)
+    assert list(planes) == list(table.planes)
     for name, values in table.planes.items():
-        assert np.allclose(found[name], values, atol=1e-12)
+        assert np.allclose(planes[name], values, atol=1e-12)
 
 
 def test_a_plane_is_the_whole_lookup_s(table):
@@ -199,7 +199,7 @@ def test_a_header_that_is_none_is_refused(table, text, sentence):
         from_stored(StoredTable(channels, text, checksum(text, channels)))
 
 
-def test_whatever_is_changed_does_not_match_thechecksum(table):
+def test_whatever_is_changed_does_not_match_the_checksum(table):
     stored = to_stored(table)
     pixels = dict(stored.channels)
     red, green = pixels["total_colour.R"], pixels["total_colour.G"]
@@ -211,7 +211,7 @@ def test_whatever_is_changed_does_not_match_thechecksum(table):
         {**pixels, "total_colour.R": red.reshape(4, 6)},
         {**pixels, "total_colour.R": red.view("<f2")},
         {**pixels, "other.R": red},
-        {name: each for name, each in pixels.items() if name != "total_colour.R"},
+        {name: pixels_of for name, pixels_of in pixels.items() if name != "total_colour.R"},
     ):
         with pytest.raises(InputError, match="does not match its checksum"):
             from_stored(StoredTable(channels, stored.header, stored.checksum))

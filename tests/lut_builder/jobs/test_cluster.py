@@ -74,14 +74,14 @@ def started(tmp_path):
     (tmp_path / "cluster").mkdir()
     running = Cluster(tmp_path / "cluster")
     yield running
-    for each in reversed(running.processes):
+    for process in reversed(running.processes):
         # A nanny told so ends its worker too.
-        each.terminate()
+        process.terminate()
         try:
-            each.wait(5)
+            process.wait(5)
         except subprocess.TimeoutExpired:
-            each.kill()
-            each.wait()
+            process.kill()
+            process.wait()
 
 
 def made(target, *arguments):

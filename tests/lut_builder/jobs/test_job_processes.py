@@ -53,13 +53,13 @@ def test_a_process_that_dies_while_others_wait_for_large_arguments_is_one_senten
 
 def children(process):
     path = Path(f"/proc/{process}/task/{process}/children")
-    return [int(each) for each in path.read_text().split()]
+    return [int(number) for number in path.read_text().split()]
 
 
 def require_gone(processes):
     """Wait for processes to end; the tracker that comes with them ends just after their parent."""
     until = time.monotonic() + 10.0
-    while not all(gone(each) for each in processes):
+    while not all(gone(process) for process in processes):
         assert time.monotonic() < until
         time.sleep(0.01)
 

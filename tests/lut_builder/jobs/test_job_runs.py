@@ -23,9 +23,9 @@ def test_kept_units_are_not_done_again(tmp_path, undisturbed):
 
 
 def test_a_kept_unit_is_the_same_bytes_each_time(tmp_path):
-    for each in ("one", "other"):
-        (tmp_path / each).mkdir()
-        in_folder(tmp_path / each)
+    for name in ("one", "other"):
+        (tmp_path / name).mkdir()
+        in_folder(tmp_path / name)
     for path in (tmp_path / "one").iterdir():
         assert path.read_bytes() == (tmp_path / "other" / path.name).read_bytes()
 
@@ -105,5 +105,5 @@ def test_progress_tells_count_and_time_left_on_standard_error(tmp_path, capsys):
 def test_rounding_does_not_take_the_bar_beyond_its_end():
     """.7 + .1 + .3 is less than .7 + .3 + .1, the order in which they are done."""
     units = [Unit(f"u{size}", walk, (1, 2), size=size) for size in (0.7, 0.1, 0.3)]
-    assert sum(each.size for each in units) < 0.7 + 0.3 + 0.1
+    assert sum(unit.size for unit in units) < 0.7 + 0.3 + 0.1
     run_units(units, None, "1", in_threads(1), "walks")

@@ -26,8 +26,8 @@ def test_results_are_those_of_the_functions_in_the_order_of_the_units(undisturbe
     assert list(undisturbed) == [unit.name for unit in UNITS]
     for name, arrays in expected.items():
         assert list(arrays) == list(undisturbed[name])
-        for each, array in arrays.items():
-            assert np.allclose(undisturbed[name][each], array, rtol=1e-12)
+        for array_name, array in arrays.items():
+            assert np.allclose(undisturbed[name][array_name], array, rtol=1e-12)
 
 
 def test_arrays_of_every_kind_and_shape_come_back():
@@ -113,11 +113,11 @@ DIFFERENT = [
 
 
 def test_different_units_have_different_digests():
-    digests = {unit_digest(Unit("a", walk, (each,)), "1") for each in DIFFERENT}
+    digests = {unit_digest(Unit("a", walk, (argument,)), "1") for argument in DIFFERENT}
     assert len(digests) == len(DIFFERENT)
     unit = Unit("a", walk, (1,))
     others = [replace(unit, name="b"), replace(unit, function=fail)]
-    assert len({unit_digest(each, "1") for each in [unit, *others]}) == 3
+    assert len({unit_digest(argument, "1") for argument in [unit, *others]}) == 3
     assert unit_digest(unit, "1") != unit_digest(unit, "2")
     assert unit_digest(replace(unit, size=7.0), "1") == unit_digest(unit, "1")
 

@@ -97,7 +97,7 @@ def test_presets_are_points_of_the_shipped_front():
     """Those that the front chooses, no others; it holds no table that another beats."""
     points = shipped_points()
     assert front(points) == points
-    chosen = presets(points)
-    assert {name: each.settings for name, each in chosen.items()} == PRESETS
-    errors = [each.error for each in chosen.values()]
+    by_front = presets(points)
+    assert {name: point.settings for name, point in by_front.items()} == PRESETS
+    errors = [point.error for point in by_front.values()]
     assert errors == sorted(errors, reverse=True)

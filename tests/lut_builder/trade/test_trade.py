@@ -90,7 +90,7 @@ def test_profiles_that_were_not_walked_follow_from_those_that_were():
     share = noise_share([runs(0.0), runs(0.1), runs(0.0)], fine)
     truth = FineProfiles(fine, 0.3 * fine, 0.0 * fine)
     noisy = completed(runs(0.0), truth, errors, share)
-    assert [each.walked for each in noisy] == [True, True, False, False]
+    assert [error.walked for error in noisy] == [True, True, False, False]
     assert noisy[3].rms == pytest.approx(noisy[1].rms / 4.0, rel=0.02)
     assert noisy[3].largest == pytest.approx(noisy[1].largest / 4.0, rel=0.02)
     assert noisy[3].lightness == pytest.approx(noisy[1].lightness / 4.0, rel=0.02)
@@ -136,18 +136,18 @@ def test_points_put_together_are_what_tables_are(quick):
     """
     states = between_knots(S3, QUICK.states, 1)
     direct = reflectances(S3, states, FINE, QUICK.fine_nodes) @ rec709_weights(FINE).T
-    asked = {(5, 2): ("pchip", 14), (3,): ("linear", 22)}
+    wanted = {(5, 2): ("pchip", 14), (3,): ("linear", 22)}
     for one in quick.points:
         made = one.settings
-        kind = asked.get(made.knots)
+        kind = wanted.get(made.knots)
         if made.has_profile or kind != (made.interpolation, made.nodes):
             continue
         apart = difference(build(S3, made).plane("total_colour", states), direct)
         shifted = 0.03 if made.nodes == 14 else 1e-6
         assert one.delta_e_mean == pytest.approx(apart.mean(), rel=shifted)
         assert one.delta_e_largest == pytest.approx(apart.max(), rel=shifted)
-        asked[made.knots] = None
-    assert set(asked.values()) == {None}
+        wanted[made.knots] = None
+    assert set(wanted.values()) == {None}
 
 
 @pytest.mark.slow
@@ -163,7 +163,7 @@ def test_what_was_measured_is_in_order(quick):
         assert errors == sorted(errors, reverse=True)
     assert all(mean["components, PPCA", n] < mean["components, PCA", n] for n in (1, 2, 3))
     assert mean["number", "float"] == 0.0 < mean["number", "half"] < 0.03
-    assert all(each.shared_seconds > 0.0 and each.start_seconds > 0.0 for each in quick.points)
+    assert all(point.shared_seconds > 0.0 and point.start_seconds > 0.0 for point in quick.points)
 
 
 @pytest.mark.slow
@@ -172,5 +172,5 @@ def test_profiles_stop_where_they_would_take_too_long():
     states = between_knots(S3, 2, 1)
     table = Settings((2,), 4, (), 0.1, 4, nodes=10)
     runs = profile_runs(S3, table, (0.1, 0.05, 0.001), states, 0.0, 1)
-    assert [each.error for each in runs] == [0.1, 0.05]
-    assert all(each.widths.shape == (2, 3) and each.shared > 0.0 for each in runs)
+    assert [run.error for run in runs] == [0.1, 0.05]
+    assert all(run.widths.shape == (2, 3) and run.shared > 0.0 for run in runs)

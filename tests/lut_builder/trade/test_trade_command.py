@@ -27,9 +27,9 @@ def test_a_limit_chooses_the_table_that_is_built(tmp_path, capsys):
     ]
     write_points(path, points, [])
     always = ["--no-profile", "--front", str(path), "--force", "-o", str(out)]
-    for limit, chosen in (("--max-delta-e=0.2", 1), ("--max-seconds=1.2", 0)):
+    for limit, number in (("--max-delta-e=0.2", 1), ("--max-seconds=1.2", 0)):
         assert main(["build", limit, "--bands", "visible", "--threads", "1", *always]) == 0
-        made = replace(points[chosen].settings, bands=())
+        made = replace(points[number].settings, bands=())
         assert read_table(out).provenance["settings"] == json.loads(json.dumps(asdict(made)))
         assert "chosen: knots " in capsys.readouterr().out
     assert main(["build", "--max-delta-e", "0.01", *always]) == 2
@@ -53,14 +53,14 @@ def test_a_trade_replaces_nothing_unasked(tmp_path, capsys):
     (tmp_path / "a_parts.csv").write_text("mine")
     assert main(["trade", "--quick", "-o", str(tmp_path / "a.png")]) == 2
     assert "a_parts.csv" in capsys.readouterr().err
-    assert [each.name for each in tmp_path.iterdir()] == ["a_parts.csv"]
+    assert [path.name for path in tmp_path.iterdir()] == ["a_parts.csv"]
 
 
 @pytest.mark.slow
 def test_a_trade_is_written_and_can_be_chosen_from(tmp_path, capsys):
     picture = tmp_path / "t.png"
-    asked = ["trade", "--specimen", "S3", "--also", "VI", "--quick", "-o", str(picture)]
-    assert main([*asked, "--max-delta-e", "50"]) == 0
+    arguments = ["trade", "--specimen", "S3", "--also", "VI", "--quick", "-o", str(picture)]
+    assert main([*arguments, "--max-delta-e", "50"]) == 0
     assert "chosen: knots" in capsys.readouterr().out
     assert imread(picture).shape[2] in (3, 4)
     assert front(read_points(tmp_path / "t.csv")) == read_points(tmp_path / "t.csv")

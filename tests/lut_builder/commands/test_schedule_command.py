@@ -1,0 +1,80 @@
+"""`lut-builder build --schedule`: a table for one scene."""
+
+import pytest
+
+from hylios.history import read_schedule
+from hylios.table import read_table
+from lut_builder.cli import main
+
+
+def test_a_schedule_through_the_shell(tmp_path, capsys):
+    path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
+    sun.write_text("# a day at the beach\nhour,melanogenesis_sed,thickening_sed\n0,6,5\n30,4,3\n")
+    read = read_schedule(sun)
+    assert read.hours.tolist() == [0, 30]
+    assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
+    quick = "--knots 9,3,3,2 --wavelengths 4 --bands visible --no-profile"
+    command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
+    assert main(["build", "--days", "10", "-o", str(path)]) == 2
+    assert "--days is 10 without a --schedule" in capsys.readouterr().err
+    assert main(command.split()) == 0
+    said = capsys.readouterr().out
+    told = read_table(path).provenance
+    count = told["states_computed"]
+    assert f"for the scene: {count}, for any sun: 162; {1 - count / 162:.0%} saved" in said
+    assert count < 90 and told["states_for_any_sun"] == 162
+
+
+def test_a_scene_that_reaches_farther_than_other_suns_saves_nothing(tmp_path, capsys):
+    """Sun every day of 60, where the table for any sun takes up to 11 exposures for its limits."""
+    sun = tmp_path / "sun.csv"
+    days = [f"{24 * day + 12},13.7,13.7" for day in range(60)]
+    sun.write_text("\n".join(["hour,melanogenesis_sed,thickening_sed", *days]))
+    quick = "--knots 3,3,3 --wavelengths 4 --bands visible --no-profile"
+    command = f"build --skin VI --schedule {sun} {quick} -o {tmp_path / 't.exr'}"
+    assert main(command.split()) == 0
+    assert "states for the scene: 36, for any sun: 27; none saved" in capsys.readouterr().out
+
+
+def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
+    path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    quick = "--knots 5,2 --wavelengths 4 --bands visible --no-profile"
+    command = f"build --skin III --schedule {sun} {quick} -o {path}"
+    assert main(command.split()) == 0
+    assert "states for the scene: 1, for any sun: 10; 90% saved" in capsys.readouterr().out
+    assert read_table(path).axes.shape == (1,)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "it is empty"),
+        ("hour,melanogenesis_sed\n0,1\n", "has no column thickening_sed"),
+        (
+            "hour,melanogenesis_sed,thickening_sed\n0,x,1\n",
+            "melanogenesis_sed in line 2 is 'x'; expected",
+        ),
+        ("hour,melanogenesis_sed,thickening_sed\n0,1\n", "line 2 has 2 cells and the header has 3"),
+        (
+            "hour,melanogenesis_sed,thickening_sed\n-1,1,1\n",
+            "hour of -1 in line 2; allowed is 0 to",
+        ),
+        ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "melanogenesis_sed in line 2 is nan"),
+        ("\x00\n", "cannot be read: it is empty"),
+    ],
+)
+def test_a_schedule_that_is_none_is_one_sentence(tmp_path, capsys, text, sentence):
+    sun = tmp_path / "sun.csv"
+    sun.write_text(text)
+    assert main(["build", "--schedule", str(sun), "-o", str(tmp_path / "t.exr")]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error and error.count("\n") == 1
+
+
+def test_a_schedule_s_days_are_limited(tmp_path, capsys):
+    sun = tmp_path / "sun.csv"
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    command = f"build --schedule {sun} --days 367 -o {tmp_path}/t.exr"
+    assert main(command.split()) == 2
+    assert "days of the scene is 367; allowed is 0 to 366." in capsys.readouterr().err

@@ -1,0 +1,54 @@
+"""Tables compared with the model between their knots."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hylios.skin.phototypes import phototype
+from hylios.table import skin_of
+from lut_builder.assemble import build
+from lut_builder.check import check
+from lut_builder.settings import PRESETS
+
+
+def test_the_preview_is_good_enough_to_look_at():
+    table = build(phototype("III").skin, PRESETS["preview"])
+    differences = check(table, count=20, seed=9).differences
+    assert differences.mean() < 0.5 and differences.max() < 1.5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["I", "III", "VI"])
+def test_the_standard_cannot_be_told_from_the_model(name):
+    table = build(phototype(name).skin, PRESETS["standard"])
+    assert skin_of(table.provenance) == phototype(name).skin
+    differences = check(table, count=200, seed=9).differences
+    assert differences.mean() < 0.1 and differences.max() < 0.3
+
+
+def test_check_finds_a_table_right_and_a_wrong_one_wrong(small):
+    honest = check(small, count=6, seed=5)
+    assert honest.differences.shape == (6,)
+    assert honest.noise is None and honest.noise_share == 0.0
+    assert len(set(np.round(honest.differences, 6))) == 6
+    darker = {name: 0.8 * values for name, values in small.planes.items()}
+    differences = check(replace(small, planes=darker), count=6, seed=5)
+    assert differences.differences.min() > honest.differences.mean()
+
+
+def test_both_ways_of_checking_say_the_same(small):
+    """The solver and the random walk at the same states; the difference is the walk's noise. The
+    mean of so few squares exceeds nine times what noise alone explains in less than one of 1000."""
+    solved, walked = (check(small, count=4, seed=5, rays=rays) for rays in (0, 4000))
+    assert np.array_equal(solved.states, walked.states)
+    apart = np.mean((walked.differences - solved.differences) ** 2)
+    assert 0.0 < apart < 9.0 * np.mean(walked.noise**2)
+    assert walked.noise_share > 0.0
+
+
+def test_checked_states_are_no_knots(small):
+    states = check(small, count=10, seed=2).states
+    knots = np.log(small.axes.knot_states().reshape(-1, 4))
+    apart = np.abs(np.log(states)[:, None] - knots).max(axis=2).min(axis=1)
+    assert apart.min() > 1e-6

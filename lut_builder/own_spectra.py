@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.readers.text import shown
 from hylios.spectra import Spectrum
 from hylios.table import own_spectra
-from hylios.table.kinds import printable
 from hylios.tissue import SPECTRA, Model
 
 
@@ -27,7 +27,7 @@ def described_spectra(model: Model) -> dict[str, dict[str, str]]:
     The source of each, for people to read, and its digest.
     """
     own = {name: one for name, one in model.own_spectra.items() if name in SPECTRA}
-    described = {"own_figures": {name: printable(one.source) for name, one in own.items()}}
+    described = {"own_figures": {name: shown(one.source) for name, one in own.items()}}
     if own:
         described["own_spectra_sha256"] = {name: digest(one) for name, one in own.items()}
     return described
@@ -47,7 +47,7 @@ def require_own_spectra(provenance: Mapping[str, Any], model: Model) -> None:
     digests, given = own_spectra(provenance), model.own_spectra
     missing = tuple(name for name in digests if name not in given)
     if missing:
-        names = printable(", ".join(missing))
+        names = shown(", ".join(missing))
         raise OwnSpectraError(
             f"the table was made with a spectrum of its maker's own for {names}, which is needed "
             "to check it.",

@@ -22,24 +22,16 @@ LARGEST_NUMBER = 1e300
 
 def unfit(name: str, value: Any, expected: str) -> InputError:
     """The exception for a value that does not fit."""
-    return InputError(f"the table's {name} is {shown(value)}; expected {expected}.")
+    return InputError(f"the table's {name} is {brief(value)}; expected {expected}.")
 
 
-def shown(value: Any, most: int = 40) -> str:
+def brief(value: Any, most: int = 40) -> str:
     """The beginning of a value, in ASCII that prints."""
     try:
         text = ascii(value)
     except ValueError:  # a whole number of very many digits
         text = type(value).__name__
     return text if len(text) <= most else text[:most] + "..."
-
-
-def printable(text: str) -> str:
-    """A text with escapes for what does not print, such as a terminal's controls."""
-    return "".join(
-        letter if letter.isprintable() else letter.encode("unicode_escape").decode()
-        for letter in text
-    )
 
 
 def is_number(value: Any) -> bool:
@@ -91,7 +83,7 @@ def choice(allowed: Collection[str]) -> Kind:
     def check(name: str, value: Any) -> None:
         if not isinstance(value, str) or value not in allowed:
             raise InputError(
-                f"the table's {name} is {shown(value)}; allowed are {', '.join(allowed)}."
+                f"the table's {name} is {brief(value)}; allowed are {', '.join(allowed)}."
             )
 
     return check

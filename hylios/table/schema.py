@@ -21,6 +21,7 @@ from hylios.table.axes import LARGEST_COORDINATE, StateAxes, require_axes
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.kinds import (
     Kind,
+    brief,
     choice,
     holding,
     is_number,
@@ -29,7 +30,6 @@ from hylios.table.kinds import (
     number,
     optional,
     require_plain,
-    shown,
     text,
     truth,
     unfit,
@@ -56,7 +56,7 @@ def _specimen(name: str, value: Any) -> None:
     parameters = {field.name: field.default is MISSING for field in fields(Specimen)}
     for key in value:
         if key not in parameters:
-            raise InputError(f"the table's {name} has {shown(key)}, which no specimen has.")
+            raise InputError(f"the table's {name} has {brief(key)}, which no specimen has.")
     for key, is_needed in parameters.items():
         if is_needed and key not in value:
             raise InputError(f"the table's {name} has no {key}.")
@@ -221,7 +221,7 @@ def parsed(header: str) -> Header:
         expected = component_names(name, content["provenance"])
         if listed != expected:
             raise InputError(
-                f"the table's plane {name} has the components {shown(', '.join(listed))}; "
+                f"the table's plane {name} has the components {brief(', '.join(listed))}; "
                 f"expected {', '.join(expected)}."
             )
     return Header(axes, components, content["provenance"], content["interpolation"])
@@ -260,7 +260,7 @@ def _content(header: str) -> dict[str, Any]:
     version = content.get("format_version")
     if isinstance(version, bool) or not isinstance(version, int) or version not in _HEADERS:
         raise InputError(
-            f"the table has format version {shown(version)}; this program reads "
+            f"the table has format version {brief(version)}; this program reads "
             f"{', '.join(map(str, _HEADERS))}."
         )
     return content

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from hylios.commands.shell import add_work_arguments, named_values, require_work
 from hylios.errors import InputError, require_whole
+from hylios.readers.text import shown
 from hylios.spectra import Spectra, published_spectra, with_own_spectrum
 from hylios.table import SkinTable, read_table
-from hylios.table.kinds import printable
 from hylios.tissue import Model
 from lut_builder.commands.progress import progress
 
@@ -82,6 +82,6 @@ def _spectra_for(table: SkinTable, own: list[str]) -> Spectra:
     except OwnSpectraError as error:
         if not error.missing:
             raise
-        options = " ".join(f"--own-spectrum {printable(name)}=FILE" for name in error.missing)
+        options = " ".join(f"--own-spectrum {shown(name)}=FILE" for name in error.missing)
         raise InputError(f"{str(error).removesuffix('.')}; give {options}.") from error
     return spectra

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.readers.text import shown
 from hylios.table import SkinTable, read_table
-from hylios.table.kinds import printable
 
 ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
 """Planes that say how good the others are."""
@@ -24,7 +24,7 @@ def info(arguments: argparse.Namespace) -> None:
     table = read_table(arguments.table)
     # Whoever made the file wrote these texts: none reaches the terminal as it is.
     for line in described(table):
-        print(printable(line))
+        print(shown(line))
 
 
 def described(table: SkinTable) -> list[str]:

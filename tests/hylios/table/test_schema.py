@@ -24,7 +24,7 @@ from hylios.table import (
     skin_of,
     to_stored,
 )
-from hylios.table.kinds import printable, shown
+from hylios.table.kinds import brief
 from hylios.table.stored import checksum
 
 SHIPPED = sorted((Path(__file__).parents[3] / "blender_addon" / "tables").glob("*.exr"))
@@ -194,10 +194,9 @@ def test_keys_of_a_later_builder_are_read(stored):
 
 
 def test_what_is_shown_prints():
-    assert shown({"a": ESCAPE}, 100) == r"{'a': '\x1b]0;owned\x07'}"
-    assert shown("x" * 99) == "'" + "x" * 39 + "..."
-    assert shown(10**5000) == "int"
-    assert printable(f"a\n{ESCAPE}é{SURROGATE}") == r"a\n\x1b]0;owned\x07é\udc80"
+    assert brief({"a": ESCAPE}, 100) == r"{'a': '\x1b]0;owned\x07'}"
+    assert brief("x" * 99) == "'" + "x" * 39 + "..."
+    assert brief(10**5000) == "int"
 
 
 def test_axes_of_one_knot_are_enough():

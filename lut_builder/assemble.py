@@ -171,7 +171,7 @@ def _profile_planes(
     A channel's profile is the sum of those of the wavelengths, weighted as they make the channel's
     colour, be it negatively.
     """
-    from hylios.transport.reuse import Profiles  # numba
+    from hylios.transport.shared_profiles import Profiles  # numba
 
     walked = sorted(
         (piece for piece in parts if piece.kind == "profile"), key=lambda p: p.wavelength

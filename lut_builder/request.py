@@ -114,8 +114,8 @@ def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
     """The arrays of a piece, on one core.
 
     Colours give `surface` and `subsurface` (states, wavelengths); a profile gives `light` and
-    `squares` (states, bins), `rays` and `anew`, as `hylios.transport.reuse.Profiles` has them; the
-    absorptance gives `wavelengths` and `values`, as
+    `squares` (states, bins), `rays` and `anew`, as `hylios.transport.shared_profiles.Profiles` has
+    them; the absorptance gives `wavelengths` and `values`, as
     `hylios.sun.action_spectra.Absorptance` has them.
 
     Raises
@@ -136,7 +136,7 @@ def _absorbed(request: Request) -> dict[str, np.ndarray]:
 
 
 def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
-    from hylios.transport.reuse import skin_profiles  # numba
+    from hylios.transport.shared_profiles import skin_profiles  # numba
 
     (profiles,) = skin_profiles(
         _specimens(request, request.states),

@@ -38,8 +38,8 @@ class Settings:
         Single wavelengths in nm, whose reflectance the table holds.
     profile_error : float
         Standard error of the cumulative diffusion profile at a wavelength, of light skin; dark
-        skin's is larger, as it shows less (`hylios.transport.reuse.needed_samples`). 0 for no
-        profile.
+        skin's is larger, as it shows less (`hylios.transport.shared_profiles.needed_samples`). 0
+        for no profile.
     profile_wavelengths : int
         From which the colour channels' profiles are made.
     nodes : int

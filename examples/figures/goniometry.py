@@ -23,10 +23,10 @@ from hylios.lab.pictures import write_figure
 from hylios.lab.predecessors.biospec import goniometry
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Model, Stack
-from hylios.transport.counting import counted
 from hylios.transport.events import TRANSMITTED
 from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import Rays
+from hylios.transport.tallies import tallied
 
 FIGURES = ("6.5",)
 
@@ -104,7 +104,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
     def work(sample: Sample):
         def count(tick: Tick) -> np.ndarray:
             rays, key = MANY * effort.rays, (effort.seed, round(WAVELENGTH * 1000))
-            counts = counted(
+            counts = tallied(
                 by_angle, prepared(sample), rays=rays, angle=0.0, key=key, threads=effort.threads
             )
             tick(size)

@@ -21,9 +21,9 @@ from hylios.lab.colour import swatch as colour_of_band
 from hylios.lab.pictures import write_figure
 from hylios.lab.predecessors import biospec, donner_jensen
 from hylios.skin.specimen import SPECIMENS
-from hylios.transport.counting import counted
 from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.simulate import share_error
+from hylios.transport.tallies import tallied
 
 FIGURES = ("6.2", "6.3", "6.4")
 
@@ -76,7 +76,7 @@ def walked_dj06(effort: Effort, tick: Tick) -> Curve:
     for place, wavelength in enumerate(WAVELENGTHS):
         layers = donner_jensen.stack(donner_jensen.NCSU_117, wavelength)
         key = (effort.seed, round(wavelength * 1000))
-        counts = counted(
+        counts = tallied(
             tally, layers, rays=effort.rays, angle=ANGLE, key=key, threads=effort.threads
         )
         returned[place] = counts.sum()

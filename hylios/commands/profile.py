@@ -42,7 +42,7 @@ def add_to(commands) -> None:
 
 def run(asked: argparse.Namespace) -> None:
     """Simulate and print."""
-    from hylios.transport.radial import profile  # numba: only when light is asked for
+    from hylios.transport.radial import Rings, profile  # numba: only when light is asked for
 
     require_work(asked)
     specimen, model = chosen_skin(asked)
@@ -50,9 +50,7 @@ def run(asked: argparse.Namespace) -> None:
         specimen,
         asked.wavelength,
         angle=asked.angle,
-        smallest=asked.smallest,
-        largest=asked.largest,
-        rings=asked.rings,
+        rings=Rings(asked.smallest, asked.largest, asked.rings),
         rays=asked.rays,
         seed=asked.seed,
         threads=asked.threads,

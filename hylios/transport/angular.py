@@ -33,9 +33,9 @@ import numpy as np
 from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Model, Stack
-from hylios.transport.counting import counted, skin_key, skin_stack
 from hylios.transport.events import SUBSURFACE, SURFACE
 from hylios.transport.simulate import Rays, share_error
+from hylios.transport.tallies import stream_key, tallied
 
 MOST_BINS = 1000
 
@@ -143,18 +143,18 @@ def brdf(
     0.3
     """
     return angular_reflectance(
-        skin_stack(specimen, wavelength, model),
+        Stack.of(specimen, wavelength, model),
         angle=angle,
         polar_bins=polar_bins,
         azimuth_bins=azimuth_bins,
         rays=rays,
-        key=skin_key(seed, wavelength),
+        key=stream_key(seed, wavelength),
         threads=threads,
     )
 
 
 def angular_reflectance(
-    layers: Stack,
+    stack: Stack,
     *,
     angle: float,
     polar_bins: int = 18,
@@ -180,7 +180,7 @@ def angular_reflectance(
             [_by_direction(traced.direction[traced.outcome == end], shape) for end in ENDS]
         )
 
-    surface, subsurface = counted(tally, layers, rays=rays, angle=angle, key=key, threads=threads)
+    surface, subsurface = tallied(tally, stack, rays=rays, angle=angle, key=key, threads=threads)
     return AngularReflectance(
         angle=angle,
         rays=rays,

@@ -34,7 +34,7 @@ LATTICE = (0.7548776662466927, 0.5698402909980532)
 
 
 @kernel
-def walk_paths(sources):
+def walk_melanosomes(sources):
     """The compiled kernel; its arguments are those of `trace`."""
 
     def trace(state, half_axes, inside, outside, bent, lengths):
@@ -76,7 +76,7 @@ def path_lengths(aspect: float, ratio: float, bent: bool) -> tuple[np.ndarray, f
         Whether rays are refracted as they enter.
     """
     lengths = np.empty(PATHS)
-    walk_paths(stream(0), (1.0, 1.0 / aspect), ratio, 1.0, bent, lengths)
+    walk_melanosomes(stream(0), (1.0, 1.0 / aspect), ratio, 1.0, bent, lengths)
     lengths.sort()
     means = lengths.reshape(BINS, -1).mean(axis=1)
     means.setflags(write=False)
@@ -99,11 +99,11 @@ def survival(
     """
     step = int(ratio / RATIO_STEP)
     (below, longest), (above, longest_above) = (
-        path_lengths(aspect, RATIO_STEP * each, bent) for each in (step, step + 1)
+        path_lengths(aspect, RATIO_STEP * number, bent) for number in (step, step + 1)
     )
     fraction = ratio / RATIO_STEP - step
     lengths = (1.0 - fraction, below), (fraction, above)
-    mean = sum(share * float(np.exp(-thickness * each).mean()) for share, each in lengths)
+    mean = sum(share * float(np.exp(-thickness * paths).mean()) for share, paths in lengths)
     return mean, max(longest, longest_above)
 
 
@@ -113,12 +113,12 @@ def with_survival(stack: Stack) -> Stack:
     layers = []
     for layer in stack.layers:
         if layer.encounter > 0.0:
-            found, longest = survival(
+            share, longest = survival(
                 layer.melanin_absorption * layer.semi_minor,
                 layer.semi_minor / layer.semi_major,
                 stack.melanin_index / layer.refractive_index,
                 bent,
             )
-            layer = replace(layer, survival=found, longest_path=longest * layer.semi_minor)
+            layer = replace(layer, survival=share, longest_path=longest * layer.semi_minor)
         layers.append(layer)
     return replace(stack, layers=tuple(layers))

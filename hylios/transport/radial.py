@@ -8,12 +8,47 @@ from hylios.burley import burley_share_within, burley_width, burley_width_error
 from hylios.errors import InputError, require_range, require_whole
 from hylios.skin.specimen import Specimen
 from hylios.tissue import Model, Stack
-from hylios.transport.counting import counted, skin_key, skin_stack
 from hylios.transport.events import SUBSURFACE
 from hylios.transport.simulate import Rays, share_error
+from hylios.transport.tallies import stream_key, tallied
 
 SMALLEST_MM, LARGEST_MM, RINGS = 0.01, 100.0, 60
 MOST_RINGS = 10_000
+
+
+@dataclass(frozen=True)
+class Rings:
+    """Rings about the place where a beam comes in, their radii in equal steps of the logarithm.
+
+    Attributes
+    ----------
+    smallest, largest : float
+        Outer radius in mm of the first ring, which starts at 0, and of the last.
+    count : int
+        2 to 10,000.
+
+    Raises
+    ------
+    InputError
+        If one is out of range.
+    """
+
+    smallest: float = SMALLEST_MM
+    largest: float = LARGEST_MM
+    count: int = RINGS
+
+    def __post_init__(self):
+        smallest = require_range("smallest radius", self.smallest, 1e-6, 1e3, "mm")
+        require_range("largest radius", self.largest, 1.001 * smallest, 1e6, "mm")
+        require_whole("number of rings", self.count, 2, MOST_RINGS)
+
+    @property
+    def edges(self) -> np.ndarray:
+        """Radii (N + 1,) in mm, the first 0."""
+        return np.concatenate([[0.0], np.geomspace(self.smallest, self.largest, self.count)])
+
+
+USUAL_RINGS = Rings()
 
 
 @dataclass(frozen=True)
@@ -114,9 +149,7 @@ def profile(
     wavelength: float,
     *,
     angle: float = 0.0,
-    smallest: float = SMALLEST_MM,
-    largest: float = LARGEST_MM,
-    rings: int = RINGS,
+    rings: Rings = USUAL_RINGS,
     rays: int = 1_000_000,
     seed: int = 1,
     threads: int | None = None,
@@ -130,10 +163,8 @@ def profile(
         nm, 250 to 2500.
     angle : float
         Of incidence, in degrees, 0 to 89.99.
-    smallest, largest : float
-        Outer radius in mm of the first ring, which starts at 0, and of the last.
-    rings : int
-        2 to 10,000.
+    rings : Rings
+        In which light is counted.
     threads, model
         As in `hylios.transport.simulate.spectrum`.
 
@@ -150,24 +181,20 @@ def profile(
     Burley's d is 1 mm
     """
     return radial_exitance(
-        skin_stack(specimen, wavelength, model),
+        Stack.of(specimen, wavelength, model),
         angle=angle,
-        smallest=smallest,
-        largest=largest,
         rings=rings,
         rays=rays,
-        key=skin_key(seed, wavelength),
+        key=stream_key(seed, wavelength),
         threads=threads,
     )
 
 
 def radial_exitance(
-    layers: Stack,
+    stack: Stack,
     *,
     angle: float = 0.0,
-    smallest: float = SMALLEST_MM,
-    largest: float = LARGEST_MM,
-    rings: int = RINGS,
+    rings: Rings = USUAL_RINGS,
     rays: int = 1_000_000,
     key: tuple[int, ...] = (1,),
     threads: int | None = None,
@@ -179,15 +206,12 @@ def radial_exitance(
     InputError
         If an argument is out of range.
     """
-    smallest = require_range("smallest radius", smallest, 1e-6, 1e3, "mm")
-    largest = require_range("largest radius", largest, 1.001 * smallest, 1e6, "mm")
-    rings = require_whole("number of rings", rings, 2, MOST_RINGS)
-    edges = np.concatenate([[0.0], np.geomspace(smallest, largest, rings)])
+    edges = rings.edges
 
     def tally(traced: Rays) -> np.ndarray:
         distance = traced.distance[traced.outcome == SUBSURFACE]
         ring = np.searchsorted(edges, distance, side="right") - 1
         return np.bincount(ring, minlength=edges.size)
 
-    counts = counted(tally, layers, rays=rays, angle=angle, key=key, threads=threads)
+    counts = tallied(tally, stack, rays=rays, angle=angle, key=key, threads=threads)
     return RadialExitance(angle=angle, rays=rays, edges=edges, counts=counts)

@@ -60,7 +60,7 @@ class Rays:
 
 
 def trace(
-    layers: Stack,
+    stack: Stack,
     *,
     rays: int,
     angle: float = 0.0,
@@ -88,23 +88,23 @@ def trace(
         If a ray was lost: no way out and nothing that absorbs.
     """
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
-    arrival = _arrival(angle)
+    arrival = arrival_along(angle)
     outcome, layer = np.empty(rays, np.int8), np.empty(rays, np.int8)
     place, direction = np.empty((rays, 2)), np.empty((rays, 3))
     walk = trace_as_printed if as_printed else trace_equivalent
-    arguments = kernel_arguments(_ready(layers, as_printed))
+    arguments = kernel_arguments(ready_to_walk(stack, as_printed))
     if not walk(*arguments, *arrival, stream(*key), outcome, layer, place, direction):
         raise RuntimeError(NO_END)
     return Rays(outcome, layer, place, direction)
 
 
-def _ready(layers: Stack, as_printed: bool) -> Stack:
+def ready_to_walk(stack: Stack, as_printed: bool = False) -> Stack:
     """The stack with survival in melanosomes tabulated, where the way of walking needs it."""
-    missing = any(each.encounter > 0.0 and each.survival < 0.0 for each in layers.layers)
-    return with_survival(layers) if missing and not as_printed else layers
+    missing = any(layer.encounter > 0.0 and layer.survival < 0.0 for layer in stack.layers)
+    return with_survival(stack) if missing and not as_printed else stack
 
 
-def _arrival(angle: float) -> tuple[float, float]:
+def arrival_along(angle: float) -> tuple[float, float]:
     """Sine and cosine of an angle of incidence in degrees."""
     require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
     return float(np.sin(np.radians(angle))), float(np.cos(np.radians(angle)))
@@ -128,6 +128,20 @@ class Counts:
     absorbed: np.ndarray
     exits: np.ndarray
 
+    @classmethod
+    def none(cls, layers: int) -> "Counts":
+        """Of no rays through so many layers."""
+        return cls(
+            np.zeros(3, np.int64),
+            np.zeros((2, layers), np.int64),
+            np.zeros(DISTANCE_EDGES.size, np.int64),
+        )
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """`left`, `absorbed` and `exits`."""
+        return self.left, self.absorbed, self.exits
+
     @property
     def rays(self) -> int:
         """All that were counted."""
@@ -140,7 +154,7 @@ class Counts:
 
 
 def count(
-    layers: Stack,
+    stack: Stack,
     *,
     rays: int,
     angle: float = 0.0,
@@ -152,16 +166,14 @@ def count(
     Parameters and errors as in `trace`.
     """
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
-    arrival = _arrival(angle)
-    depth = len(layers.layers)
-    left, absorbed = np.zeros(3, np.int64), np.zeros((2, depth), np.int64)
-    exits = np.zeros(DISTANCE_EDGES.size, np.int64)
+    arrival = arrival_along(angle)
+    ends = Counts.none(len(stack.layers))
     walk = count_as_printed if as_printed else count_equivalent
-    arguments = kernel_arguments(_ready(layers, as_printed))
+    arguments = kernel_arguments(ready_to_walk(stack, as_printed))
     edges = 0.1 * DISTANCE_EDGES
-    if not walk(*arguments, *arrival, stream(*key), rays, edges, left, absorbed, exits):
+    if not walk(*arguments, *arrival, stream(*key), rays, edges, *ends.arrays):
         raise RuntimeError(NO_END)
-    return Counts(left, absorbed, exits)
+    return ends
 
 
 @dataclass(frozen=True)
@@ -175,8 +187,8 @@ class Spectrum:
         Rays per wavelength.
     surface, subsurface : (W,) arrays
         Share of the light that the surface reflects, and that leaves after having been inside.
-    lost_below : (W,) array
-        Share that the hypodermis swallows; none where its reflectance is 1.
+    transmittance : (W,) array
+        Share that leaves below and that the hypodermis swallows; none where its reflectance is 1.
     absorbed, absorbed_in_melanosomes : (W, L) arrays
         Share that ends in each layer's absorbers and in its melanosomes, counted there. Layers
         are those of `hylios.tissue.PARTS`.
@@ -190,7 +202,7 @@ class Spectrum:
     rays: int
     surface: np.ndarray
     subsurface: np.ndarray
-    lost_below: np.ndarray
+    transmittance: np.ndarray
     absorbed: np.ndarray
     absorbed_in_melanosomes: np.ndarray
     absorber_shares: np.ndarray
@@ -203,8 +215,8 @@ class Spectrum:
 
     @property
     def absorptance(self) -> np.ndarray:
-        """Share of the light that is absorbed, (W,), from tallies of its own."""
-        return self.lost_below + (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
+        """Share of the light that is absorbed, also in the hypodermis, (W,); counted itself."""
+        return self.transmittance + (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
 
     @property
     def absorbed_by(self) -> np.ndarray:
@@ -249,8 +261,8 @@ def spectrum(
 ) -> Spectrum:
     """Simulate a specimen's spectrum by random walk.
 
-    A wavelength's result depends on the seed, the rays and itself, not on which others are asked
-    for or on the number of threads.
+    A wavelength's result depends on the seed, the rays and itself, not on the other wavelengths or
+    on the number of threads.
 
     Parameters
     ----------
@@ -281,51 +293,47 @@ def spectrum(
     >>> print(f"{spectrum.total[0]:.2f} +- {spectrum.standard_error[0]:.2f}")
     0.31 +- 0.01
     """
-    asked = require_wavelengths(wavelengths, (model or Model()).spectra)
+    model = model or Model()
+    wavelengths = require_wavelengths(wavelengths, model.spectra)
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
     seed = require_whole("seed", seed, 0, 2**63)
-    threads = thread_count(threads)
-    stacks = [_ready(Stack.of(specimen, each, model), as_printed) for each in asked]
-    work = (
-        (row, min(CHUNK, rays - first), (seed, round(asked[row] * 1000), first))
-        for row in range(asked.size)
-        for first in range(0, rays, CHUNK)
-    )
+    stacks = [
+        ready_to_walk(Stack.of(specimen, wavelength, model), as_printed)
+        for wavelength in wavelengths
+    ]
+    keys = [(seed, round(wavelength * 1000)) for wavelength in wavelengths]
 
-    def piece(task):
-        row, size, key = task
-        counted = count(stacks[row], rays=size, angle=angle, key=key, as_printed=as_printed)
-        return row, counted
+    def piece(task: tuple[int, int]) -> tuple[int, Counts]:
+        row, first = task
+        size, key = min(CHUNK, rays - first), (*keys[row], first)
+        return row, count(stacks[row], rays=size, angle=angle, key=key, as_printed=as_printed)
 
-    found: list[Counts | None] = [None] * asked.size
-    for row, counted in in_threads(piece, work, threads):
-        before = found[row]
-        found[row] = counted if before is None else before + counted
+    tasks = ((row, first) for row in range(len(stacks)) for first in range(0, rays, CHUNK))
+    counts = [Counts.none(len(PARTS)) for _ in stacks]
+    for row, counted in in_threads(piece, tasks, thread_count(threads)):
+        counts[row] += counted
         if progress:
             progress(counted.rays)
-    counts = [each for each in found if each is not None]
-    left = np.array([each.left for each in counts]) / rays
-    absorbed = np.array([each.absorbed for each in counts]) / rays
+    left = np.array([ends.left for ends in counts]) / rays
+    absorbed = np.array([ends.absorbed for ends in counts]) / rays
     return Spectrum(
-        wavelengths=asked,
+        wavelengths=wavelengths,
         rays=rays,
         surface=left[:, SURFACE],
         subsurface=left[:, SUBSURFACE],
-        lost_below=left[:, TRANSMITTED],
+        transmittance=left[:, TRANSMITTED],
         absorbed=absorbed[:, 0],
         absorbed_in_melanosomes=absorbed[:, 1],
-        absorber_shares=_absorber_shares(specimen, asked, model),
-        exit_counts=np.array([each.exits for each in counts]),
+        absorber_shares=_absorber_shares(specimen, wavelengths, model),
+        exit_counts=np.array([ends.exits for ends in counts]),
     )
 
 
-def _absorber_shares(
-    specimen: Specimen, wavelengths: np.ndarray, model: Model | None
-) -> np.ndarray:
+def _absorber_shares(specimen: Specimen, wavelengths: np.ndarray, model: Model) -> np.ndarray:
     """Of each layer's absorption, each absorber's share (W, L, A); 0 where nothing absorbs."""
-    held = absorbers(specimen, wavelengths, model=model)
+    coefficients = absorbers(specimen, wavelengths, model=model)
     none = np.zeros(wavelengths.size)
-    table = np.array([[held[part].get(name, none) for name in ABSORBERS] for part in PARTS])
+    table = np.array([[coefficients[part].get(name, none) for name in ABSORBERS] for part in PARTS])
     table = np.moveaxis(table, -1, 0)
     whole = table.sum(axis=-1, keepdims=True)
     return np.divide(table, whole, out=np.zeros_like(table), where=whole > 0)

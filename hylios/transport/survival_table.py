@@ -17,7 +17,7 @@ from hylios.tissue.melanosome_survival import (
     ratios,
 )
 from hylios.transport.generator import stream
-from hylios.transport.melanosome_paths import walk_paths
+from hylios.transport.melanosome_paths import walk_melanosomes
 
 PATHS = 1 << 19
 """Paths of one stream of random numbers."""
@@ -54,7 +54,7 @@ def path_lengths(aspect: float, ratio: float) -> np.ndarray:
     lengths = np.empty(PATHS)
     means = []
     for each in range(STREAMS):
-        walk_paths(stream(0, each), (1.0, 1.0 / aspect), ratio, 1.0, False, lengths)
+        walk_melanosomes(stream(0, each), (1.0, 1.0 / aspect), ratio, 1.0, False, lengths)
         means.append(np.sort(lengths).reshape(BINS, -1).mean(axis=1))
     return np.concatenate(means)
 

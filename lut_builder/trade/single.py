@@ -21,8 +21,7 @@ from hylios.burley import burley_share_within
 from hylios.lab.colour import difference, lab, rec709_weights
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
-from hylios.transport.paths import LEAST
-from hylios.transport.reuse import skin_profiles
+from hylios.transport.shared_profiles import LEAST_LIGHT, skin_profiles
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.assemble import assembled, channel_widths, requested
@@ -175,7 +174,7 @@ def fine_profiles(
     channels = np.einsum(
         "cw,wsb->scb", few.weights, np.array([profile.light for profile in profiles])
     )
-    light = np.maximum(channels.sum(axis=2), LEAST)
+    light = np.maximum(channels.sum(axis=2), LEAST_LIGHT)
     widths = channel_widths(channels)
     within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
     seen = burley_share_within(DISTANCE_EDGES[1:], widths[..., None])

@@ -10,8 +10,8 @@ from examples.figures import angular, goniometry, hyperspectral, predecessors
 from examples.figures.light import RANGE, Curve, Effort
 from examples.figures.measured_people import People
 from hylios.transport.angular import AngularReflectance
-from hylios.transport.counting import counted
 from hylios.transport.interfaces import fresnel
+from hylios.transport.tallies import tallied
 
 PEOPLE = People(("s1", "s3"), np.array([250.0, 2500.0]), np.array([[0.25, 0.25], [0.5, 0.5]]))
 
@@ -70,7 +70,7 @@ def test_a_corneum_without_roughness_turns_nothing_and_absorbs_by_beer_and_lambe
     sample = replace(goniometry.SAMPLES["stratum corneum"], flat=True)
     stack = goniometry.prepared(sample)
     rays = 20_000
-    counts = counted(goniometry.by_angle, stack, rays=rays, angle=0.0, key=(3,))
+    counts = tallied(goniometry.by_angle, stack, rays=rays, angle=0.0, key=(3,))
     assert counts[1:].sum() == 0
     only = stack.layers[0]
     reflected, _ = fresnel(1.0, 1.0, only.refractive_index)

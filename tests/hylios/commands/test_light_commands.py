@@ -10,7 +10,7 @@ from hylios.burley import burley_share_within
 from hylios.commands.cli import main
 from hylios.skin.specimen import SPECIMENS
 from hylios.transport.angular import brdf
-from hylios.transport.radial import profile
+from hylios.transport.radial import Rings, profile
 
 S3 = SPECIMENS["S3"]
 
@@ -48,7 +48,7 @@ def test_profile_is_csv_that_sums_to_the_subsurface_reflectance(capsys):
     printed = capsys.readouterr()
     header = "inner_mm,outer_mm,exitance_per_mm2,standard_error,burley_per_mm2"
     assert printed.out.splitlines()[0] == header
-    result = profile(S3, 633.0, rings=30, largest=20.0, rays=4000, seed=3)
+    result = profile(S3, 633.0, rings=Rings(largest=20.0, count=30), rays=4000, seed=3)
     assert f"Burley's width d is {result.burley_width:.4g} mm" in printed.err
     assert f"{result.beyond:.3g} of the light leaves beyond 20 mm" in printed.err
     columns = table(printed.out)

@@ -11,10 +11,10 @@ from hylios.burley import burley_width, burley_width_error
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
 from hylios.tissue import Layer, Stack
-from hylios.transport.counting import skin_key, skin_stack
 from hylios.transport.events import SUBSURFACE
-from hylios.transport.radial import profile, radial_exitance
+from hylios.transport.radial import Rings, profile, radial_exitance
 from hylios.transport.simulate import CHUNK, trace
+from hylios.transport.tallies import stream_key
 
 S3 = SPECIMENS["S3"]
 
@@ -28,8 +28,8 @@ def assert_counts(counts, expected):
 
 def test_integral_over_the_plane_is_the_subsurface_reflectance_of_the_same_rays():
     rays = CHUNK + 1000
-    result = profile(S3, 633.0, rays=rays, seed=2, largest=5.0, threads=2)
-    layers, key = skin_stack(S3, 633.0), skin_key(2, 633.0)
+    result = profile(S3, 633.0, rays=rays, seed=2, rings=Rings(largest=5.0), threads=2)
+    layers, key = Stack.of(S3, 633.0), stream_key(2, 633.0)
     outcome = np.concatenate(
         [
             trace(layers, rays=size, key=(*key, first)).outcome
@@ -59,7 +59,7 @@ def test_light_scattered_once():
     """Straight down to z, Rayleigh's phase function, straight out, in a matched layer."""
     scattering, absorption, depth = 2.0, 0.5, 1.0
     layers = Stack((Layer(0.1 * depth, 1.0, 10.0 * absorption, rayleigh=10.0 * scattering),))
-    result = radial_exitance(layers, rays=400_000, smallest=0.05, rings=40, key=(3,))
+    result = radial_exitance(layers, rays=400_000, rings=Rings(smallest=0.05, count=40), key=(3,))
     z = (depth * (np.arange(2000) + 0.5) / 2000)[:, None]
     cosines = z / np.hypot(z, result.edges)
     shares = (np.arange(20) + 0.5) / 20
@@ -105,9 +105,7 @@ def test_half_space_of_forward_scatterers_follows_diffusion_theory():
         scattering=10.0 * REDUCED / (1.0 - anisotropy),
         anisotropy=anisotropy,
     )
-    result = radial_exitance(
-        Stack((scatterer,)), smallest=5.0, largest=20.0, rings=9, rays=300_000, key=(4,)
-    )
+    result = radial_exitance(Stack((scatterer,)), rings=Rings(5.0, 20.0, 9), rays=300_000, key=(4,))
     shares = (np.arange(50) + 0.5) / 50
     inner, outer = result.edges[1:-1, None], result.edges[2:, None]
     expected = dipole(np.sqrt(inner**2 + (outer**2 - inner**2) * shares)).mean(axis=1)
@@ -142,7 +140,7 @@ def test_burley_width_and_its_error_in_millimetres():
 
 
 def test_threads_do_not_matter():
-    one, two = (profile(S3, 633.0, rays=2 * CHUNK, threads=each) for each in (1, 2))
+    one, two = (profile(S3, 633.0, rays=2 * CHUNK, threads=count) for count in (1, 2))
     assert np.array_equal(one.counts, two.counts)
     assert one.burley_width == two.burley_width
     assert one.burley_width_error == two.burley_width_error
@@ -151,16 +149,20 @@ def test_threads_do_not_matter():
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ({"rings": 1}, "number of rings is 1"),
+        ({"count": 1}, "number of rings is 1"),
         ({"smallest": 0.0}, "smallest radius is 0 mm"),
         ({"smallest": 2.0, "largest": 1.0}, "largest radius is 1 mm"),
         ({"largest": np.inf}, "largest radius is inf mm"),
-        ({"angle": -1.0}, "angle of incidence is -1"),
     ],
 )
-def test_bad_input_is_refused(arguments, sentence):
+def test_rings_out_of_range_are_refused(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
-        profile(S3, 633.0, **{"rays": 10} | arguments)
+        Rings(**arguments)
+
+
+def test_an_angle_out_of_range_is_refused():
+    with pytest.raises(InputError, match="angle of incidence is -1"):
+        profile(S3, 633.0, rays=10, angle=-1.0)
 
 
 def test_a_profile_without_light_is_refused():

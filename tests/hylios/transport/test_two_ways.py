@@ -56,7 +56,7 @@ def spectra(name):
 def test_fates_are_the_same_over_the_visible(name):
     found = []
     for each in spectra(name):
-        left = [each.surface, each.subsurface, each.lost_below]
+        left = [each.surface, each.subsurface, each.transmittance]
         absorbed = [*each.absorbed.T, *each.absorbed_in_melanosomes.T]
         found.append(np.rint(each.rays * np.array([*left, *absorbed]).sum(axis=1)).astype(int))
         assert found[-1].sum() == each.rays * VISIBLE.size

@@ -1,29 +1,16 @@
-"""Counts over many rays through one stack, piece by piece on all cores."""
+"""Tallies of many rays through one stack, piece by piece on all cores."""
 
 from collections.abc import Callable
 
 import numpy as np
 
 from hylios.errors import require_whole
-from hylios.skin.specimen import Specimen
 from hylios.threads import in_threads, thread_count
-from hylios.tissue import Model, Stack
-from hylios.transport.melanosome_paths import with_survival
-from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, trace
+from hylios.tissue import Stack
+from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, ready_to_walk, trace
 
 
-def skin_stack(specimen: Specimen, wavelength: float, model: Model | None = None) -> Stack:
-    """The layers of a specimen at one wavelength in nm, ready to be walked.
-
-    Raises
-    ------
-    InputError
-        As `hylios.tissue.Stack.of`.
-    """
-    return with_survival(Stack.of(specimen, wavelength, model))
-
-
-def skin_key(seed: int, wavelength: float) -> tuple[int, int]:
+def stream_key(seed: int, wavelength: float) -> tuple[int, int]:
     """What names the random numbers of a wavelength, in nm: the same as in a spectrum.
 
     Raises
@@ -34,9 +21,9 @@ def skin_key(seed: int, wavelength: float) -> tuple[int, int]:
     return require_whole("seed", seed, 0, 2**63), round(wavelength * 1000)
 
 
-def counted(
+def tallied(
     tally: Callable[[Rays], np.ndarray],
-    layers: Stack,
+    stack: Stack,
     *,
     rays: int,
     angle: float,
@@ -62,11 +49,11 @@ def counted(
         If the angle or a number is out of range.
     """
     rays = require_whole("number of rays", rays, 1, MOST_RAYS)
-    threads = thread_count(threads)
+    threads, stack = thread_count(threads), ready_to_walk(stack)
 
     def piece(first: int) -> np.ndarray:
         size = min(CHUNK, rays - first)
-        return tally(trace(layers, rays=size, angle=angle, key=(*key, first)))
+        return tally(trace(stack, rays=size, angle=angle, key=(*key, first)))
 
     results = in_threads(piece, iter(range(0, rays, CHUNK)), threads)
     total = next(results).copy()

@@ -55,9 +55,11 @@ def numbers(*limits):
 def parameter_values():
     """Values of some parameters anywhere in their ranges; thicknesses from x0.01 to x100."""
     fields = {
-        each.name: numbers(each.metadata["low"], each.metadata["high"])
-        for each in parameters()
-        if not each.name.endswith(("_thickness", "_melanosomes", "_colloidal_melanin", "_axis"))
+        parameter.name: numbers(parameter.metadata["low"], parameter.metadata["high"])
+        for parameter in parameters()
+        if not parameter.name.endswith(
+            ("_thickness", "_melanosomes", "_colloidal_melanin", "_axis")
+        )
     }
     contents = {f"{layer}_melanosomes": numbers(0.0, 60.0) for layer in EPIDERMIS}
     colloidal = {f"{layer}_colloidal_melanin": numbers(0.0, 40.0) for layer in EPIDERMIS}
@@ -75,14 +77,16 @@ def parameter_values():
     ),
     wavelength=numbers(250.0, 2500.0),
     angle=numbers(0.0, 89.99),
-    reading=st.sampled_from([(name, each) for name, r in READINGS.items() for each in r.choices]),
+    reading=st.sampled_from(
+        [(name, choice) for name, of in READINGS.items() for choice in of.choices]
+    ),
 )
 def test_every_skin_gives_numbers(name, values, scale, wavelength, angle, reading):
     usual = SPECIMENS[name]
-    most = {each.name: each.metadata["high"] for each in parameters()}
+    most = {parameter.name: parameter.metadata["high"] for parameter in parameters()}
     thick = {
-        each: min(getattr(usual, each) * factor, most[each])
-        for each, factor in ((f"{part}_thickness", factor) for part, factor in scale.items())
+        name: min(getattr(usual, name) * factor, most[name])
+        for name, factor in ((f"{part}_thickness", factor) for part, factor in scale.items())
     }
     specimen = replace(usual, **values, **thick)
     model = Model(readings=dict([reading]))
@@ -91,16 +95,16 @@ def test_every_skin_gives_numbers(name, values, scale, wavelength, angle, readin
     except InputError as error:
         assert "thickness is" in str(error)  # of a layer, for the melanosomes in it
         assume(False)
-    assume(sum(each.thickness * each.encounter for each in layers.layers) < 300)
+    assume(sum(layer.thickness * layer.encounter for layer in layers.layers) < 300)
     assert_counted(layers, angle=angle)
-    found = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, model=model)
+    reflected = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, model=model)
     again = spectrum(specimen, [wavelength], angle=angle, rays=RAYS, seed=7, model=model)
-    assert abs(found.total[0] + found.absorptance[0] - 1.0) < 1e-12
-    assert np.allclose(found.absorbed_by.sum(axis=2), found.absorbed, rtol=1e-12, atol=0.0)
-    for each in ("surface", "subsurface", "absorbed", "absorbed_in_melanosomes", "exit_counts"):
-        values = getattr(found, each)
+    assert abs(reflected.total[0] + reflected.absorptance[0] - 1.0) < 1e-12
+    assert np.allclose(reflected.absorbed_by.sum(axis=2), reflected.absorbed, rtol=1e-12, atol=0.0)
+    for part in ("surface", "subsurface", "absorbed", "absorbed_in_melanosomes", "exit_counts"):
+        values = getattr(reflected, part)
         assert np.all(np.isfinite(values))
-        assert np.array_equal(values, getattr(again, each))
+        assert np.array_equal(values, getattr(again, part))
 
 
 def any_layer():
@@ -161,25 +165,25 @@ def brightest_case(name, melanin, factor):
         "colloidal": tuple(f"{layer}_colloidal_melanin" for layer in EPIDERMIS),
         "melanosomes": tuple(f"{layer}_melanosomes" for layer in EPIDERMIS),
     }[melanin]
-    return replace(usual, **{each: factor * getattr(usual, each) for each in names})
+    return replace(usual, **{name: factor * getattr(usual, name) for name in names})
 
 
 @cache  # a specimen as it is comes with each form of melanin
 def visible(specimen, seed):
     """Reflectances of 400 to 700 nm added up, and their standard error."""
-    found = spectrum(specimen, np.arange(400.0, 701.0, 50.0), rays=8_000, seed=seed)
-    return found.total.sum(), np.sqrt((found.standard_error**2).sum())
+    reflected = spectrum(specimen, np.arange(400.0, 701.0, 50.0), rays=8_000, seed=seed)
+    return reflected.total.sum(), np.sqrt((reflected.standard_error**2).sum())
 
 
 @pytest.mark.parametrize("melanin", ["concentration", "colloidal", "melanosomes"])
 @pytest.mark.parametrize("name", ["S3", "S4"])
 def test_more_melanin_never_brightens(name, melanin):
     """At every step from none of it to four times as much, summed over 400 to 700 nm."""
-    found = [
+    sums = [
         visible(brightest_case(name, melanin, factor), seed)
         for seed, factor in enumerate((0.0, 0.3, 1.0, 2.0, 4.0))
     ]
-    totals, errors = zip(*found, strict=True)
+    totals, errors = zip(*sums, strict=True)
     for step in range(4):
         assert totals[step + 1] - totals[step] < 5.0 * np.hypot(errors[step], errors[step + 1])
     assert totals[0] - totals[4] > 10.0 * np.hypot(errors[0], errors[4])
@@ -217,8 +221,8 @@ def test_absorption_of_the_whole_skin_at_its_limits(absorption):
     layers = replace(
         usual,
         layers=tuple(
-            replace(each, absorption=absorption, melanin_absorption=absorption)
-            for each in usual.layers
+            replace(layer, absorption=absorption, melanin_absorption=absorption)
+            for layer in usual.layers
         ),
     )
     counted = count(layers, rays=3_000)
@@ -253,7 +257,7 @@ def test_a_hundred_million_rays_in_one_call():
 
 @pytest.mark.parametrize("rays", [1, 2, 16_384, 16_385])
 def test_any_number_of_rays_is_counted_whole(rays):
-    found = spectrum(SPECIMENS["S4"], [430.0], rays=rays)
-    ended = rays * (found.total + found.absorptance)
+    reflected = spectrum(SPECIMENS["S4"], [430.0], rays=rays)
+    ended = rays * (reflected.total + reflected.absorptance)
     assert np.allclose(ended, rays, rtol=0.0, atol=1e-9)
-    assert found.exit_counts.shape == (1, DISTANCE_EDGES.size)
+    assert reflected.exit_counts.shape == (1, DISTANCE_EDGES.size)

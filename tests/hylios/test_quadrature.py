@@ -30,12 +30,12 @@ def at(wavelengths, spectra):
 
 @pytest.mark.parametrize("count", COUNTS)
 def test_grey_stays_that_grey(count):
-    found = skin_quadrature(count)
-    assert found.wavelengths.shape == (count,) and found.weights.shape == (3, count)
-    assert np.all(np.diff(found.wavelengths) > 0)
-    assert 400.0 <= found.wavelengths[0] and found.wavelengths[-1] <= 700.0
+    quadrature = skin_quadrature(count)
+    assert quadrature.wavelengths.shape == (count,) and quadrature.weights.shape == (3, count)
+    assert np.all(np.diff(quadrature.wavelengths) > 0)
+    assert 400.0 <= quadrature.wavelengths[0] and quadrature.wavelengths[-1] <= 700.0
     for grey in (0.0, 0.18, 1.0):
-        assert found.weights @ np.full(count, grey) == pytest.approx([grey] * 3, abs=1e-14)
+        assert quadrature.weights @ np.full(count, grey) == pytest.approx([grey] * 3, abs=1e-14)
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -51,20 +51,20 @@ def test_noise_is_no_more_than_with_61_wavelengths(count, held_out):
         )
         return np.einsum("sij,sij->s", metrics(colours), covariance)
 
-    found = skin_quadrature(count)
+    quadrature = skin_quadrature(count)
     even = np.arange(400.0, 701.0, 5.0)
     dense = variance(even, colour.rec709_weights(even))
-    assert np.all(variance(found.wavelengths, found.weights) < dense)
+    assert np.all(variance(quadrature.wavelengths, quadrature.weights) < dense)
 
 
 @pytest.mark.parametrize(("count", "most"), [(4, 0.3), (6, 0.15), (8, 0.05), (16, 0.03)])
 def test_colours_of_skins_held_out(count, most, held_out):
     spectra, colours = held_out
-    found = skin_quadrature(count)
-    missed = colour.difference(at(found.wavelengths, spectra) @ found.weights.T, colours)
+    quadrature = skin_quadrature(count)
+    missed = colour.difference(at(quadrature.wavelengths, spectra) @ quadrature.weights.T, colours)
     assert missed.max() < most
     even = np.linspace(400.0, 700.0, count)
-    between = np.array([np.interp(even, GRID, each) for each in spectra])
+    between = np.array([np.interp(even, GRID, spectrum) for spectrum in spectra])
     assert missed.max() < colour.difference(colour.linear_rec709(even, between), colours).min()
 
 
@@ -82,9 +82,9 @@ def test_skins_far_outside_those_chosen_by():
         replace(SPECIMENS["S4"], eumelanin_concentration=150.0),
     ]
     spectra = reflectances(skins, GRID, whole)
-    found = skin_quadrature(8)
+    quadrature = skin_quadrature(8)
     colours = colour.linear_rec709(GRID, spectra)
-    missed = colour.difference(at(found.wavelengths, spectra) @ found.weights.T, colours)
+    missed = colour.difference(at(quadrature.wavelengths, spectra) @ quadrature.weights.T, colours)
     assert missed.max() < 0.7
 
 
@@ -101,11 +101,11 @@ def test_as_many_wavelengths_as_the_spectra_have_degrees_of_freedom_are_enough()
     """Lines between 4 knots: with 4 wavelengths there is no error, whatever the weights."""
     random = np.random.default_rng(1)
     knots = random.uniform(0.1, 0.9, (50, 4))
-    spectra = np.array([np.interp(np.arange(25), [0, 8, 16, 24], each) for each in knots])
+    spectra = np.array([np.interp(np.arange(25), [0, 8, 16, 24], values) for values in knots])
     problem = colours_of(spectra)
-    found = choose(problem, 4, rays=1e12)[-1]
-    picked = spectra[:, found.wavelengths.astype(int)]
-    assert picked @ found.weights.T == pytest.approx(spectra @ problem.weights.T, abs=1e-5)
+    quadrature = choose(problem, 4, rays=1e12)[-1]
+    picked = spectra[:, quadrature.wavelengths.astype(int)]
+    assert picked @ quadrature.weights.T == pytest.approx(spectra @ problem.weights.T, abs=1e-5)
 
 
 def test_two_wavelengths_are_the_best_pair_of_all():
@@ -122,32 +122,32 @@ def test_two_wavelengths_are_the_best_pair_of_all():
         return float(np.mean(np.sum((across @ weight - rest) ** 2, axis=1)))
 
     best = min(error(*pair) for pair in combinations(range(12), 2))
-    found = choose(problem, 2, rays=1e12)[-1]
-    missed = spectra[:, found.wavelengths.astype(int)] @ found.weights.T - goal
+    quadrature = choose(problem, 2, rays=1e12)[-1]
+    missed = spectra[:, quadrature.wavelengths.astype(int)] @ quadrature.weights.T - goal
     assert np.mean(np.sum(missed**2, axis=1)) == pytest.approx(best, rel=1e-6)
 
 
 def test_few_rays_make_for_even_weights():
     """With noise all that counts, a grey spectrum's rays are shared by all wavelengths alike."""
     problem = colours_of(np.full((5, 6), 0.5))
-    found = choose(problem, 3, rays=1.0)[-1]
-    assert found.weights == pytest.approx(np.full((3, 3), 1.0 / 3.0), abs=1e-9)
+    quadrature = choose(problem, 3, rays=1.0)[-1]
+    assert quadrature.weights == pytest.approx(np.full((3, 3), 1.0 / 3.0), abs=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 5, 9])
 def test_gauss_is_exact_for_polynomials(count):
     """Each channel to the degree count - 1, their sum X + Y + Z to twice that and one more."""
-    found = gauss(count)
+    quadrature = gauss(count)
     full = colour.rec709_weights(GRID)
     centred = (GRID - 560.0) / 200.0
     for degree in range(count):
         expected = full @ centred**degree
-        nodes = ((found.wavelengths - 560.0) / 200.0) ** degree
-        assert found.weights @ nodes == pytest.approx(expected, abs=1e-9)
+        nodes = ((quadrature.wavelengths - 560.0) / 200.0) ** degree
+        assert quadrature.weights @ nodes == pytest.approx(expected, abs=1e-9)
     weight = colour.xyz_weights(GRID).sum(axis=0)
     to_xyz = np.linalg.lstsq(full.T, weight, rcond=None)[0]
     degree = 2 * count - 1
-    found_sum = to_xyz @ found.weights @ ((found.wavelengths - 560.0) / 200.0) ** degree
+    found_sum = to_xyz @ quadrature.weights @ ((quadrature.wavelengths - 560.0) / 200.0) ** degree
     # White is made white in the fourth digit, which their sum does not share.
     assert found_sum == pytest.approx(weight @ centred**degree, rel=2e-3)
 
@@ -155,8 +155,8 @@ def test_gauss_is_exact_for_polynomials(count):
 def test_wavelengths_come_from_those_allowed():
     allowed = np.arange(12) % 3 == 1
     spectra = np.random.default_rng(6).uniform(0.1, 0.9, (20, 12))
-    for each in choose(colours_of(spectra), 4, allowed=allowed):
-        assert np.all(np.isin(each.wavelengths, [1.0, 4.0, 7.0, 10.0]))
+    for quadrature in choose(colours_of(spectra), 4, allowed=allowed):
+        assert np.all(np.isin(quadrature.wavelengths, [1.0, 4.0, 7.0, 10.0]))
 
 
 def test_a_metric_is_the_difference_squared(held_out):
@@ -172,8 +172,8 @@ def test_the_shipped_table_is_as_good_as_a_new_choice():
     judges = skin_colours(40, seed=3)
     goal = judges.reflectances @ judges.weights.T
 
-    def error(found):
-        missed = at(found.wavelengths, judges.reflectances) @ found.weights.T - goal
+    def error(quadrature):
+        missed = at(quadrature.wavelengths, judges.reflectances) @ quadrature.weights.T - goal
         return np.mean(np.einsum("si,sij,sj->s", missed, judges.metrics, missed))
 
     allowed = (GRID >= 400.0) & (GRID <= 700.0)

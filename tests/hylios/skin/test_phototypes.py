@@ -55,9 +55,11 @@ def test_each_type_reflects_as_its_people_do(name):
     kind = phototype(name)
     wavelengths, measured = kind.people.wavelengths, kind.people.reflectance
     assert (wavelengths[0], wavelengths[-1], wavelengths.size) == (400.0, 700.0, 31)
-    found = spectrum(kind.skin.specimen, wavelengths, angle=8.0).total
-    rmse = np.sqrt(np.mean((found - measured) ** 2))
-    apart = difference(linear_rec709(wavelengths, found), linear_rec709(wavelengths, measured))
+    reflectance = spectrum(kind.skin.specimen, wavelengths, angle=8.0).total
+    rmse = np.sqrt(np.mean((reflectance - measured) ** 2))
+    apart = difference(
+        linear_rec709(wavelengths, reflectance), linear_rec709(wavelengths, measured)
+    )
     assert rmse <= 0.015 and apart <= 3.0
     assert kind.rmse == pytest.approx(rmse, abs=1e-4)
     assert kind.ciede2000 == pytest.approx(apart, abs=0.01)
@@ -65,7 +67,7 @@ def test_each_type_reflects_as_its_people_do(name):
 
 def test_people_are_the_six_classes_in_order():
     people = [phototype(name).people for name in PHOTOTYPES]
-    assert [each.subjects for each in people] == [79, 408, 578, 458, 159, 8]
+    assert [group.subjects for group in people] == [79, 408, 578, 458, 159, 8]
     assert people[0].reflectance[0] == 0.2338 and people[5].reflectance[-1] == 0.2451
 
 
@@ -74,24 +76,24 @@ def test_parameters_are_physiological_and_none_is_at_an_end_by_the_fit(name):
     specimen = phototype(name).skin.specimen
     assert specimen_of(asdict(specimen)) == specimen
     for field in fitting.FITTED:
-        known, value = PHYSIOLOGY[field], getattr(specimen, field)
-        assert known.low < value < known.high
-    for each in parameters():
-        assert PHYSIOLOGY[each.name].holds(getattr(specimen, each.name))
+        usual, value = PHYSIOLOGY[field], getattr(specimen, field)
+        assert usual.low < value < usual.high
+    for parameter in parameters():
+        assert PHYSIOLOGY[parameter.name].holds(getattr(specimen, parameter.name))
 
 
 def test_reflectance_falls_from_type_to_type_at_every_wavelength():
     wavelengths = np.arange(400.0, 701.0, 5.0)
-    found = [spectrum(named_specimen(name), wavelengths).total for name in PHOTOTYPES]
-    assert np.all(np.diff(found, axis=0) < 0.0)
+    spectra = [spectrum(named_specimen(name), wavelengths).total for name in PHOTOTYPES]
+    assert np.all(np.diff(spectra, axis=0) < 0.0)
 
 
 def test_melanin_and_minimal_doses_rise_from_type_to_type():
     skins = [phototype(name).skin for name in PHOTOTYPES]
     for values in (
-        [each.specimen.pigmentation for each in skins],
-        [each.mmd for each in skins],
-        [each.med for each in skins],
+        [skin.specimen.pigmentation for skin in skins],
+        [skin.mmd for skin in skins],
+        [skin.med for skin in skins],
     ):
         assert np.all(np.diff(values) > 0.0)
     # Equation 3.1 by hand, and published: 15-30, 25-40, 30-50, 40-60, 60-90, 90-150 mJ/cm2
@@ -108,10 +110,10 @@ def test_a_type_without_sun_is_its_specimen(name):
     skin = phototype(name).skin
     steady = skin.dynamics.steady_state()
     bare = skin.at([*(steady / steady.sum()), 1.0])
-    for each in fields(Specimen):
-        value = getattr(skin.specimen, each.name)
+    for field in fields(Specimen):
+        value = getattr(skin.specimen, field.name)
         expected = value if isinstance(value, str) else pytest.approx(value, rel=1e-12)
-        assert getattr(bare, each.name) == expected
+        assert getattr(bare, field.name) == expected
 
 
 def test_each_type_tans_by_its_set():
@@ -156,7 +158,7 @@ def test_darker_skin_gains_more_at_equal_multiples_of_the_mmd():
     gained = []
     for name in PHOTOTYPES:
         skin = phototype(name).skin
-        peaks = after(skin, *(each * skin.mmd for each in MULTIPLES)).total.max(axis=1)
+        peaks = after(skin, *(multiple * skin.mmd for multiple in MULTIPLES)).total.max(axis=1)
         gained.append(skin.specimen.pigmentation * (peaks - 1.0))
     assert np.all(np.diff(gained, axis=0) > 0.0)
 
@@ -186,7 +188,9 @@ def test_reflectance_in_the_ultraviolet_converges_with_melanin():
         untanned.append(spectrum(skin.specimen, ULTRAVIOLET).total)
         tans.append(spectrum(skin.at(state), ULTRAVIOLET).total)
         more = [skin.at([*(factor * skin.untanned_melanin), 1.0]) for factor in (1.0, 2.0, 3.0)]
-        steps.append(np.abs(np.diff([spectrum(each, ULTRAVIOLET).total for each in more], axis=0)))
+        steps.append(
+            np.abs(np.diff([spectrum(specimen, ULTRAVIOLET).total for specimen in more], axis=0))
+        )
     assert np.all(np.ptp(tans, axis=0) < 0.65 * np.ptp(untanned, axis=0))
     first, second = np.mean(steps, axis=-1).T
     lightest = slice(0, 3)  # in V and VI both are below .006 of reflectance
@@ -222,7 +226,7 @@ def test_the_thesis_ability_all_but_fills_the_granulosum_of_type_4():
 
 def assert_fitted_as_the_file_says(name):
     fit = fitting.fitted(name)
-    assert not any(each.at_bound for each in fit.free)
+    assert not any(parameter.at_bound for parameter in fit.free)
     kept = phototype(name).skin.specimen
     assert kept.pigmentation == pytest.approx(fit.specimen.pigmentation, rel=2e-3)
     for field in fitting.FITTED:
@@ -251,7 +255,7 @@ def test_fitting_writes_the_file_whole(tmp_path, monkeypatch):
     assert list(tomllib.loads(text)) == list(PHOTOTYPES)
     assert fitting.main() == 0
     assert (tmp_path / "fitted.toml").read_text() == text
-    assert [each.name for each in tmp_path.iterdir()] == ["fitted.toml"]
+    assert [path.name for path in tmp_path.iterdir()] == ["fitted.toml"]
 
 
 def test_the_page_of_skin_types_has_them_as_they_are():

@@ -30,12 +30,16 @@ WATER_AND_LIPIDS = [f"{layer}_{what}" for layer in LAYERS for what in ("water", 
 
 
 def test_every_parameter_has_a_range_with_a_source_within_what_is_possible():
-    assert list(PHYSIOLOGY) == [each.name for each in parameters()]
-    for each in parameters():
-        known = PHYSIOLOGY[each.name]
-        assert each.metadata["low"] <= known.low < known.high <= each.metadata["high"], each.name
-        assert re.search(r"thesis|ESTIMATE|\b(19|20)\d\d\b|\.edu|\.com", known.source), each.name
-        assert known.cited.startswith("[")
+    assert list(PHYSIOLOGY) == [parameter.name for parameter in parameters()]
+    for parameter in parameters():
+        usual = PHYSIOLOGY[parameter.name]
+        assert parameter.metadata["low"] <= usual.low < usual.high <= parameter.metadata["high"], (
+            parameter.name
+        )
+        assert re.search(r"thesis|ESTIMATE|\b(19|20)\d\d\b|\.edu|\.com", usual.source), (
+            parameter.name
+        )
+        assert usual.cited.startswith("[")
 
 
 @pytest.mark.parametrize("name", list(SPECIMENS))
@@ -68,11 +72,11 @@ def test_what_the_thesis_varies_is_physiological(name, values):
 @pytest.mark.parametrize("name", list(PHYSIOLOGY))
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 def test_a_value_outside_is_refused_with_both_ranges_and_taken_where_allowed(name, side):
-    known = PHYSIOLOGY[name]
-    possible = next(each.metadata for each in parameters() if each.name == name)
-    end = known.low if side < 0 else known.high
+    usual = PHYSIOLOGY[name]
+    possible = next(parameter.metadata for parameter in parameters() if parameter.name == name)
+    end = usual.low if side < 0 else usual.high
     value = float(np.nextafter(end, side * np.inf))
-    with pytest.raises(InputError, match=f"{name} is .*; physiological is {known.low:g} to "):
+    with pytest.raises(InputError, match=f"{name} is .*; physiological is {usual.low:g} to "):
         with_values(S3, {name: value})
     if not possible["low"] <= value <= possible["high"]:
         with pytest.raises(InputError, match=f"{name} is "):
@@ -108,7 +112,9 @@ def test_fields_that_are_missing_unknown_or_unprintable_are_refused():
         with pytest.raises(InputError, match="name is .*; allowed is printable text"):
             replace(S3, name=name)
     table_6_1 = {
-        each.name: getattr(S3, each.name) for each in fields(Specimen) if each.default is MISSING
+        field.name: getattr(S3, field.name)
+        for field in fields(Specimen)
+        if field.default is MISSING
     }
     assert specimen_of(table_6_1) == S3
 
@@ -124,7 +130,7 @@ def box(limits):
 
 def consistent(values, most_melanin):
     """The values, with what several of them must meet together put right."""
-    axes = [values[f"melanosome_{each}_axis"] for each in ("major", "minor")]
+    axes = [values[f"melanosome_{axis}_axis"] for axis in ("major", "minor")]
     fullest = max(
         values[f"{layer}_melanosomes"] + values[f"{layer}_colloidal_melanin"] for layer in EPIDERMIS
     )
@@ -140,11 +146,16 @@ def consistent(values, most_melanin):
 def layer_numbers(specimen, wavelength):
     layers = Stack.of(specimen, wavelength).layers
     given = [{**asdict(layer), "longest_path": 0.0} for layer in layers]  # infinite until tabulated
-    return np.array([list(each.values()) for each in given])
+    return np.array([list(layer.values()) for layer in given])
 
 
-PHYSIOLOGICAL = box({name: (known.low, known.high) for name, known in PHYSIOLOGY.items()})
-POSSIBLE = box({each.name: (each.metadata["low"], each.metadata["high"]) for each in parameters()})
+PHYSIOLOGICAL = box({name: (usual.low, usual.high) for name, usual in PHYSIOLOGY.items()})
+POSSIBLE = box(
+    {
+        parameter.name: (parameter.metadata["low"], parameter.metadata["high"])
+        for parameter in parameters()
+    }
+)
 
 
 @settings(deadline=None, max_examples=150, derandomize=True)

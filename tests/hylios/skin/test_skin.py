@@ -87,8 +87,8 @@ def test_the_thesis_variation_for_high_ability():
     able = varied(low, {"basale_extra_production": 0.0858})
     assert able == replace(low, extra_production=(0.0858, 0.0, 0.0))
     peaks = [
-        simulate(Exposures([0], [30.0]), each, mmd=5.0, med=3.0, hours=720).total.max()
-        for each in (low, able)
+        simulate(Exposures([0], [30.0]), dynamics, mmd=5.0, med=3.0, hours=720).total.max()
+        for dynamics in (low, able)
     ]
     assert peaks[1] - 1.0 > 4.0 * (peaks[0] - 1.0)
 

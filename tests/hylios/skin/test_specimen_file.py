@@ -42,9 +42,9 @@ def test_the_thesis_s_specimens_come_back(written, name):
     arrangement=st.sampled_from(ARRANGEMENTS),
     values=st.fixed_dictionaries(
         {
-            each.name: st.floats(each.metadata["low"], each.metadata["high"])
-            for each in parameters()
-            if not each.name.endswith(("melanosomes", "melanin", "axis"))
+            parameter.name: st.floats(parameter.metadata["low"], parameter.metadata["high"])
+            for parameter in parameters()
+            if not parameter.name.endswith(("melanosomes", "melanin", "axis"))
         }
     ),
 )
@@ -153,9 +153,9 @@ def test_the_command_lists_every_parameter_with_its_range_and_source(capsys):
     assert main(["specimen", "S1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     rows = {line.split()[0]: line for line in lines if line and not line.startswith(" ")}
-    for name, known in PHYSIOLOGY.items():
-        assert f"{known.low:g} to {known.high:g}  " in rows[name]
-        assert f"{known.cited}" in rows[name]
+    for name, usual in PHYSIOLOGY.items():
+        assert f"{usual.low:g} to {usual.high:g}  " in rows[name]
+        assert f"{usual.cited}" in rows[name]
     assert rows["blood_beta_carotene"].split()[1:3] == ["7e-05", "mg/mL"]
     assert "table 6.1 [56, 90]" in rows["papillary_blood"]
     columns = {line.index("0.08 to 4") for line in lines if "0.08 to 4  " in line}
@@ -180,8 +180,8 @@ def test_what_the_command_prints_as_toml_every_command_reads(written, capsys):
     assert main(["specimen", "S4", "--set", "papillary_blood=0.5", "--toml"]) == 0
     path = str(written(capsys.readouterr().out))
     outputs = []
-    for chosen in (["S4", "--set", "papillary_blood=0.5"], [path]):
-        assert main([*usual, "--specimen", *chosen]) == 0
+    for specimen in (["S4", "--set", "papillary_blood=0.5"], [path]):
+        assert main([*usual, "--specimen", *specimen]) == 0
         outputs.append(capsys.readouterr().out)
     assert outputs[0] == outputs[1]
     assert main(["specimen", path, "--toml"]) == 0

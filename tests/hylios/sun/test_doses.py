@@ -1,7 +1,5 @@
 """Doses of sun, lamps and UV index, and the commands that take them."""
 
-import csv
-import io
 import subprocess
 import sys
 from datetime import date
@@ -13,10 +11,8 @@ from hypothesis import strategies as st
 
 from hylios.adding.absorptance import tabulated
 from hylios.adding.spectrum import spectrum
-from hylios.commands.cli import main
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
-from hylios.spectra import published_spectra, with_own_spectrum
 from hylios.sun.action_spectra import (
     ERYTHEMA,
     MELANOGENESIS,
@@ -30,7 +26,6 @@ from hylios.sun.doses import Doses, joined, of_sed, of_spectrum, of_sun, of_uv_i
 from hylios.sun.position import sun
 from hylios.sun.protection import clothing, sunscreen, sunscreen_film
 from hylios.sun.sky import ClearSky
-from hylios.tissue import Model
 
 NM = np.arange(280.0, 401.0)
 SKIN = Absorptance([280.0, 298.0, 340.0, 400.0], [0.95, 0.9, 0.8, 0.7])
@@ -43,11 +38,11 @@ def line(nanometres, joules=100.0):
 
 
 def test_a_specimen_is_tabulated_once():
-    found = tabulated(SPECIMENS["S3"])
-    assert found is tabulated(SPECIMENS["S3"])
+    absorptance = tabulated(SPECIMENS["S3"])
+    assert absorptance is tabulated(SPECIMENS["S3"])
     direct = spectrum(SPECIMENS["S3"], [280.0, 298.0, 400.0]).absorptance
-    assert found.at(np.array([280.0, 298.0, 400.0])) == pytest.approx(direct, abs=1e-9)
-    assert found.wavelengths[[0, -1]] == pytest.approx([280.0, 400.0])
+    assert absorptance.at(np.array([280.0, 298.0, 400.0])) == pytest.approx(direct, abs=1e-9)
+    assert absorptance.wavelengths[[0, -1]] == pytest.approx([280.0, 400.0])
 
 
 @pytest.mark.parametrize("dose", [melanogenesis_dose, thickening_dose])
@@ -67,9 +62,9 @@ def test_other_lines_count_by_action_and_absorptance(dose, name, nanometres):
 
 def test_the_erythema_action_spectrum_is_cies():
     """1 to 298 nm, 10^(.094 (298 - l)) to 328 nm, 10^(.015 (140 - l)) to 400 nm (ISO 17166)."""
-    found = action(ERYTHEMA, np.array([290.0, 299.0, 313.0, 327.5, 365.0, 400.0]))
+    values = action(ERYTHEMA, np.array([290.0, 299.0, 313.0, 327.5, 365.0, 400.0]))
     expected = 10.0 ** np.array([0, -0.094, -1.41, -2.773, 0.015 * -225, 0.015 * -260])
-    assert found == pytest.approx(expected, rel=2e-4)
+    assert values == pytest.approx(expected, rel=2e-4)
 
 
 def test_light_of_a_coarse_spectrum_ends_where_it_ends():
@@ -260,116 +255,6 @@ def test_bad_hours_of_sun_are_named(arguments, sentence):
         of_sun(*arguments, SKIN)
 
 
-def run(arguments, capsys):
-    assert main(arguments.split()) == 0
-    printed = capsys.readouterr()
-    return list(csv.DictReader(io.StringIO(printed.out))), printed.err
-
-
-def test_doses_of_all_kinds_together(capsys, tmp_path):
-    lamp = tmp_path / "a:lamp.csv"
-    lamp.write_text("wavelength_nm,irradiance_w_m2_nm\n297,0\n298,1\n299,0\n")
-    rows, notes = run(
-        f"dose --mmd 4 --med 2 --dose 90:30 --dose 0:6SED --dose 24:2.5mmd --uv-index 5:10:1 "
-        f"--spectrum 6:{lamp}:200 --sun 2025-06-22:10-11:30 --sun 2025-06-21:12-13 --latitude 40",
-        capsys,
-    )
-    assert [int(row["hour"]) for row in rows] == [0, 5, 6, 12, 24, 34, 35, 90]
-    sed = {int(row["hour"]): float(row["melanogenesis_sed"]) for row in rows}
-    assert [sed[hour] for hour in (0, 5, 24, 90)] == pytest.approx([6.0, 9.0, 10.0, 30.0])
-    assert sed[6] == pytest.approx(2.0, rel=1e-2)
-    for row in rows:
-        assert float(row["mmd_multiple"]) == pytest.approx(float(row["melanogenesis_sed"]) / 4.0)
-        assert float(row["med_multiple"]) == pytest.approx(float(row["thickening_sed"]) / 2.0)
-    assert "melanogenesis_action, 250 to 2500 nm: PROVISIONAL" in notes
-
-
-def test_doses_in_sed_say_nothing_of_estimates(capsys):
-    _, notes = run("dose --dose 0:30 --uv-index 3:5:1", capsys)
-    assert notes == ""
-
-
-def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
-    """Given erythema's, melanin counts as the thickness does, and nothing is provisional."""
-    own = tmp_path / "own.csv"
-    figure = published_spectra()[ERYTHEMA]
-    rows = zip(figure.wavelengths, figure.values, strict=True)
-    own.write_text("".join(f"{nanometres},{value}\n" for nanometres, value in rows))
-    asked = "dose --sun 2025-06-21:12-13 --latitude 40 --own-spectrum melanogenesis_action="
-    (row,), notes = run(asked + str(own), capsys)
-    assert row["melanogenesis_sed"] == row["thickening_sed"]
-    assert "PROVISIONAL" not in notes
-
-
-def test_a_clock_and_a_start(capsys):
-    asked = "dose --sun 2025-06-21:12-13 --latitude 48 --longitude 11 --utc-offset 2 "
-    (row,), _ = run(asked + "--start 2025-06-20", capsys)
-    assert row["hour"] == "36"
-    (noon,), _ = run("dose --sun 2025-06-21:12-13 --latitude 48", capsys)
-    assert float(row["erythemal_sed"]) < float(noon["erythemal_sed"])
-
-
-def test_the_air_and_the_absorptance_on_the_command_line(capsys, tmp_path):
-    """Options of the sky, and a reading and a spectrum of one's own, as in the functions."""
-    asked = "dose --sun 2025-06-21:12-13 --latitude 40 "
-    (row,), _ = run(f"{asked} --ozone 400 --altitude 2000 --aerosol 0.3 --albedo 0.8", capsys)
-    sky = ClearSky(400.0, 2000.0, 0.3, 0.8)
-    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]), sky=sky)
-    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
-    own = tmp_path / "dna.csv"
-    own.write_text("250,0\n2500,0\n")
-    more = f"--figure dna={own} --reading colloidal_melanin=solid"
-    (row,), _ = run(f"{asked} {more}", capsys)
-    spectra = with_own_spectrum(published_spectra(), "dna", own)
-    skin = tabulated(SPECIMENS["S3"], Model(spectra, {"colloidal_melanin": "solid"}))
-    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin)
-    assert [float(row[f"{name}_sed"]) for name in COLUMNS] == pytest.approx(every(expected)[:, 0])
-    usual = of_sun(SUMMER, 12.0, 13.0, 40.0, tabulated(SPECIMENS["S3"]))
-    assert expected.thickening[0] != pytest.approx(usual.thickening[0], rel=1e-3)
-
-
-def test_protection_on_the_command_line(capsys, tmp_path):
-    asked = "dose --sun 2025-06-21:12-13 --dose 0:8 --latitude 40 "
-    bare, _ = run(asked, capsys)
-    film = tmp_path / "film.csv"
-    film.write_text("wavelength_nm,absorbance\n290,1\n400,1\n")
-    for more, factor in (
-        ("--spf 16 --sunscreen-amount 0.5", 2.0),
-        ("--upf 15", 15.0),
-        (f"--sunscreen {film}", 10.0),
-        (f"--sunscreen {film} --sunscreen-amount 1 --upf 10", 10.0**1.5),
-    ):
-        rows, notes = run(asked + more, capsys)
-        for row, usual in zip(rows, bare, strict=True):
-            for name in ("erythemal_sed", "melanogenesis_sed", "thickening_sed"):
-                assert float(row[name]) == pytest.approx(float(usual[name]) / factor, rel=1e-6)
-    assert "film.csv at 1 mg/cm^2 is an SPF of 3.16" in notes
-
-
-def test_tan_takes_what_dose_prints(capsys):
-    """The same doses, by sun and as numbers, thickness included where the spectra agree."""
-    by_sun, _ = run("tan --sun 2025-06-21:12-13 --latitude 40 --hours 300", capsys)
-    (dose,), _ = run("dose --sun 2025-06-21:12-13 --latitude 40", capsys)
-    plain, _ = run(f"tan --dose 12:{dose['melanogenesis_sed']} --hours 300", capsys)
-    assert float(by_sun[-1]["total"]) > 1.05
-    assert float(by_sun[-1]["total"]) == pytest.approx(float(plain[-1]["total"]), abs=1e-8)
-
-
-def test_melanin_that_is_set_counts_for_the_minimal_doses(capsys):
-    """3.2 of the specimen that is asked for, be it named or not."""
-    asked = "dose --dose 0:1 --set basale_melanosomes=20 "
-    (named,), _ = run(asked + "--specimen S3", capsys)
-    (usual,), _ = run("dose --dose 0:1 --specimen S3", capsys)
-    assert run(asked, capsys)[0] == [named]
-    assert float(named["mmd_multiple"]) < 0.8 * float(usual["mmd_multiple"])
-
-
-def test_tan_by_multiples(capsys):
-    multiple, _ = run("tan --dose 0:2.5MMD --mmd 4 --hours 200", capsys)
-    plain, _ = run("tan --dose 0:10 --mmd 4 --hours 200", capsys)
-    assert multiple == plain
-
-
 def test_the_sun_needs_no_numba():
     code = (
         "import sys; sys.modules['numba'] = None; sys.modules['colour'] = None;"
@@ -377,86 +262,3 @@ def test_the_sun_needs_no_numba():
         "sys.exit(main('tan --sun 2025-06-21:12-13 --latitude 40 --hours 1'.split()))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        ("--dose 30", "a dose is '30'; expected HOUR:SED"),
-        ("--dose 0:30MED", "dose is '30MED'; expected a number"),
-        ("--dose 0:MMD", "dose is ''; expected a number"),
-        ("--dose x:3", "hour of a dose is 'x'"),
-        ("--dose 0:nanMMD", "a dose is negative, not finite"),
-        ("--dose 0.5:3", "an hour of exposure is"),
-        ("--dose 0:3 --mmd 0", "MMD is 0 SED"),
-        ("--dose 0:3 --med nan", "MED is nan SED"),
-        ("--uv-index 0:10", "an exposure by UV index is '0:10'; expected HOUR:INDEX:HOURS"),
-        ("--uv-index 0:-1:1", "UV index is -1; allowed is 0 to 50"),
-        ("--uv-index 0:1:-1", "duration is -1 hours"),
-        ("--uv-index=-1:1:1", "an hour of exposure is"),
-        ("--sun 2025-06-21:10-16", "--sun needs --latitude"),
-        ("--latitude 40", "--latitude is given without --sun"),
-        ("--start 2025-06-21", "--start is given without --sun"),
-        ("--dose 0:3 --ozone 300", "--ozone is given without --sun"),
-        ("--sun 2025-06-21:10-16 --latitude 40 --start 1900-01-01", "of exposure is 1099858;"),
-        ("--sun 2025-06-31:10-16 --latitude 40", "a date is '2025-06-31'"),
-        ("--sun 2025-06-21 --latitude 40", "expected DATE:FROM-TO"),
-        ("--sun 2025-06-21:10 --latitude 40", "expected DATE:FROM-TO"),
-        ("--sun 2025-06-21:16-10 --latitude 40", "sun is given from 16 to 10 h"),
-        ("--sun 2025-06-21:10-16:75 --latitude 40", "minute of sun is 75"),
-        ("--sun 2025-06-21:10-x --latitude 40", "hour of sun is 'x'"),
-        ("--sun 2025-06-21:10-26 --latitude 40", "hour of sun is 26; allowed is 0 to 24"),
-        ("--sun 1800-06-21:10-16 --latitude 40", "year of the sun is 1800"),
-        ("--sun 2025-06-21:10-16 --latitude 91", "latitude is 91 degrees"),
-        ("--sun 2025-06-21:10-16 --latitude 40 --ozone 0", "ozone column is 0 Dobson units"),
-        ("--sun 2025-06-21:10-16 --latitude 40 --start 2025-07-01", "lies before hour 0"),
-        ("--sun 2025-06-21:10-16 --latitude 40 --utc-offset 2", "given without --longitude"),
-        ("--sun 2025-06-21:10-16 --latitude 40 --specimen S7", "there is no specimen 'S7'"),
-        ("--spectrum 0:/none.csv:60", "/none.csv cannot be read: No such file"),
-        ("--spectrum 0:60", "expected HOUR:FILE:SECONDS"),
-        ("--dose 0:3 --spf 0", "SPF is 0; allowed is 1 to 10000"),
-        ("--dose 0:3 --upf -1", "UPF is -1"),
-        ("--dose 0:3 --spf 30 --sunscreen-amount -1", "amount of sunscreen is -1 mg/cm^2"),
-        ("--dose 0:3 --sunscreen-amount 1", "given without --spf or --sunscreen"),
-        ("--dose 0:3 --sunscreen /none.csv", "/none.csv cannot be read: No such file"),
-        ("--dose 0:3 --spf 30 --sunscreen /none.csv", "give only one"),
-    ],
-)
-@pytest.mark.parametrize("command", ["dose", "tan"])
-def test_bad_exposures_are_one_sentence_and_status_2(capsys, command, arguments, sentence):
-    assert main([command, *arguments.split()]) == 2
-    printed = capsys.readouterr()
-    assert sentence in printed.err
-    assert printed.err.count("\n") == 1
-    assert printed.out == ""
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("wavelength_nm,power\n300,1\n310,1\n", "has no column irradiance_w_m2_nm"),
-        ("310,1\n300,1\n305,1\n", "in ascending or in descending order"),
-        ("2800,1e-40\n4000,1e-9\n", "has light at 2800 to 4000 nm; none of it lies in 280 to 400"),
-        ("200,0\n250,0\n", "has light at 200 to 250 nm; none of it lies in 280 to 400 nm"),
-        ("250,1\n300,1\n", "has light at 250 nm"),
-        ("300,1\n310,-1\n", "negative or not a number"),
-        ("300,1\n", "at least two wavelengths"),
-        ("300,1e308\n310,1e308\n", "too large; allowed is 0 to 1e+15 J/m^2/nm"),
-        ("", "it is empty"),
-        ("wavelength_nm,irradiance_w_m2_nm\n", "has no rows; needed is one or more wavelength_nm"),
-    ],
-)
-def test_a_bad_file_of_a_lamp_is_one_sentence(capsys, tmp_path, text, sentence):
-    file = tmp_path / "lamp.csv"
-    file.write_text(text)
-    assert main(["dose", "--spectrum", f"0:{file}:60"]) == 2
-    printed = capsys.readouterr()
-    assert sentence in printed.err
-    assert printed.err.count("\n") == 1
-
-
-def test_a_bad_file_of_a_sunscreen_is_one_sentence(capsys, tmp_path):
-    file = tmp_path / "film.csv"
-    file.write_text("wavelength_nm,blue\n290,0.1\n400,0.1\n")
-    assert main(["dose", "--dose", "0:30", "--sunscreen", str(file)]) == 2
-    assert "has no column transmittance" in capsys.readouterr().err

@@ -29,17 +29,17 @@ SKIES = st.builds(
 
 def test_the_worked_example_of_the_solar_position_algorithm():
     """Reda and Andreas, NREL/TP-560-34302: 2003-10-17, 12:30:30 at UTC - 7, before refraction."""
-    found = sun(date(2003, 10, 17), 12.0 + 30.5 / 60.0, 39.742476, -105.1786, -7.0)
-    assert 90.0 - found.zenith == pytest.approx(39.872046, abs=0.003)
-    assert found.azimuth == pytest.approx(194.340241, abs=0.003)
-    assert found.distance == pytest.approx(0.9965423, abs=1e-5)
+    place = sun(date(2003, 10, 17), 12.0 + 30.5 / 60.0, 39.742476, -105.1786, -7.0)
+    assert 90.0 - place.zenith == pytest.approx(39.872046, abs=0.003)
+    assert place.azimuth == pytest.approx(194.340241, abs=0.003)
+    assert place.distance == pytest.approx(0.9965423, abs=1e-5)
 
 
 def test_the_worked_example_of_meeus():
     """Example 25.a: 1992-10-13, 0 h: declination -7.78507, distance .99766."""
-    found = sun(date(1992, 10, 13), 0.0, 90.0, 0.0)
-    assert 90.0 - found.zenith == pytest.approx(-7.78507, abs=1e-3)
-    assert found.distance == pytest.approx(0.99766, abs=1e-5)
+    place = sun(date(1992, 10, 13), 0.0, 90.0, 0.0)
+    assert 90.0 - place.zenith == pytest.approx(-7.78507, abs=1e-3)
+    assert place.distance == pytest.approx(0.99766, abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -53,18 +53,18 @@ def test_the_worked_example_of_meeus():
 )
 @pytest.mark.parametrize("latitude", [-35.0, 0.0, 40.0, 60.0])
 def test_noon_at_the_turns_of_the_year(day, declination, error, latitude):
-    found = sun(day, 12.0, latitude)
-    assert found.zenith == pytest.approx(abs(latitude - declination), abs=error)
+    place = sun(day, 12.0, latitude)
+    assert place.zenith == pytest.approx(abs(latitude - declination), abs=error)
     towards = 180.0 if latitude > declination else 0.0
     if abs(latitude - declination) > 1.0:
-        assert np.cos(np.radians(found.azimuth - towards)) == pytest.approx(1.0)
+        assert np.cos(np.radians(place.azimuth - towards)) == pytest.approx(1.0)
 
 
 def test_the_sun_rises_in_the_east_and_sets_in_the_west():
     for latitude in (-35.0, 50.0):
-        found = sun(date(2025, 3, 20), np.array([6.0, 18.0]), latitude)
-        assert found.azimuth == pytest.approx([90.0, 270.0], abs=0.5)
-        assert found.zenith == pytest.approx([90.0, 90.0], abs=0.5)
+        place = sun(date(2025, 3, 20), np.array([6.0, 18.0]), latitude)
+        assert place.azimuth == pytest.approx([90.0, 270.0], abs=0.5)
+        assert place.zenith == pytest.approx([90.0, 90.0], abs=0.5)
 
 
 def test_polar_night_and_midnight_sun():
@@ -90,10 +90,10 @@ def test_a_clock_is_set_by_its_offset():
 @settings(max_examples=200, deadline=None)
 @given(DAYS, st.floats(0.0, 24.0), LATITUDES, st.none() | st.floats(-180.0, 180.0))
 def test_the_sun_is_somewhere(day, hour, latitude, longitude):
-    found = sun(day, hour, latitude, longitude)
-    assert 0.0 <= found.zenith <= 180.0
-    assert 0.0 <= found.azimuth <= 360.0
-    assert 0.98 < found.distance < 1.02
+    place = sun(day, hour, latitude, longitude)
+    assert 0.0 <= place.zenith <= 180.0
+    assert 0.0 <= place.azimuth <= 360.0
+    assert 0.98 < place.distance < 1.02
 
 
 @pytest.mark.parametrize(
@@ -140,15 +140,17 @@ def test_direct_light_by_hand():
 
 def test_altitude_by_hand():
     """As high as the scale height, e times fewer molecules are over one: .45076 to .16583."""
-    high, low = (sunlight(0.0, ClearSky(aerosol=0.0, altitude=each)) for each in (8434.0, 0.0))
+    high, low = (
+        sunlight(0.0, ClearSky(aerosol=0.0, altitude=altitude)) for altitude in (8434.0, 0.0)
+    )
     risen = at(high, 380.0, high.direct) / at(low, 380.0, low.direct)
     assert risen == pytest.approx(np.exp(0.45076 * (1.0 - np.exp(-1.0)) * 0.99971), rel=1e-4)
 
 
 def test_ozone_by_hand():
     """300 nm: 100 Dobson units are 2.687e18 molecules of 3.616e-19 cm^2 over a cm^2."""
-    light = [sunlight(0.0, ClearSky(ozone=each)) for each in (300.0, 400.0)]
-    thick, thin = (at(each, 300.0, each.direct) for each in (light[1], light[0]))
+    light = [sunlight(0.0, ClearSky(ozone=ozone)) for ozone in (300.0, 400.0)]
+    thick, thin = (at(sky, 300.0, sky.direct) for sky in (light[1], light[0]))
     assert thick / thin == pytest.approx(np.exp(-0.9716), rel=1e-3)
 
 
@@ -164,12 +166,12 @@ def reference():
     return np.array(list(rows), dtype=float).T
 
 
-def errors(found, expected, wavelengths):
+def errors(computed, expected, wavelengths):
     """Relative errors from 300 to 400 nm: root mean square, median; and of the erythemal sum."""
     seen = wavelengths >= 300.0
-    error = found[seen] / expected[seen] - 1.0
+    error = computed[seen] / expected[seen] - 1.0
     weight = action(ERYTHEMA, wavelengths)
-    erythemal = np.sum(found * weight) / np.sum(expected * weight) - 1.0
+    erythemal = np.sum(computed * weight) / np.sum(expected * weight) - 1.0
     return [np.sqrt(np.mean(error**2)), np.median(error), erythemal]
 
 
@@ -189,9 +191,9 @@ def test_errors_against_astm_g173():
     arriving = light.direct / EXTRATERRESTRIAL
     from_sky = arriving * facing / np.cos(zenith)
     from_sky += (1.0 - arriving) * 0.5 * (1.0 + np.cos(tilt))
-    found = light.direct * facing + light.diffuse * from_sky
-    found += light.level * soil * 0.5 * (1.0 - np.cos(tilt))
-    measured = errors(found, tilted, wavelengths)
+    computed = light.direct * facing + light.diffuse * from_sky
+    computed += light.level * soil * 0.5 * (1.0 - np.cos(tilt))
+    measured = errors(computed, tilted, wavelengths)
     assert measured == pytest.approx([0.050, 0.027, 0.073], abs=1e-3)
     assert errors(light.direct, direct, wavelengths) == pytest.approx(
         [0.034, -0.011, -0.045], abs=1e-3

@@ -9,8 +9,6 @@ from hypothesis import strategies as st
 
 from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS, tanned
-from hylios.spectra import published_spectra
-from hylios.sun.action_spectra import equivalent_dose
 from hylios.tanning import (
     LARGEST_DOSE,
     PIGMENTATIONS,
@@ -21,10 +19,8 @@ from hylios.tanning import (
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
     simulate,
-    simulation,
     states_at,
 )
-from hylios.tanning.recurrence import no_steps
 
 
 def one_dose(dose, pigmentation="intermediate", hours=720, mmd=2.89, med=1.7):
@@ -71,8 +67,8 @@ def test_photoaddition():
     large = simulate(Exposures([0], [10.0]), dynamics, **settings_).total.max() - 1.0
     days = 24 * np.arange(4)
     small = simulate(Exposures(days, np.full(4, 2.5)), dynamics, **settings_).total.max() - 1.0
-    each = simulate(Exposures([0], [2.5]), dynamics, **settings_).total.max() - 1.0
-    assert each == 0.0
+    alone = simulate(Exposures([0], [2.5]), dynamics, **settings_).total.max() - 1.0
+    assert alone == 0.0
     third = simulate(Exposures([0], [3.4]), dynamics, **settings_).total.max() - 1.0
     thirds = simulate(Exposures([0, 24, 48], np.full(3, 3.4)), dynamics, **settings_).total.max()
     assert third < 0.75 * large
@@ -148,7 +144,7 @@ def by_the_letter(doses, dynamics, growing, mmd, med):
             thickness = made + thickness * growing.cell_decay
         rates = zip(dynamics.extra_transfer, dynamics.transfer, strict=True)
         leaving = [response[dynamics] * extra + usual for extra, usual in rates]
-        states.append([*(each / start[0] for each in melanin), thickness / start[1]])
+        states.append([*(content / start[0] for content in melanin), thickness / start[1]])
     return np.array(states)
 
 
@@ -161,9 +157,9 @@ def test_the_equations_to_the_letter(name, hours):
     doses = random.uniform(0.5, 30.0, 12)
     by_hour = np.bincount(when, doses, hours + 1)
     expected = by_the_letter(by_hour, PIGMENTATIONS[name], ThicknessDynamics(), 2.89, 1.7)
-    found = simulate(Exposures(when, doses), PIGMENTATIONS[name], mmd=2.89, med=1.7, hours=hours)
-    assert np.array_equal(found.hours, np.arange(hours + 1))
-    assert np.allclose(found.states, expected, rtol=1e-12, atol=0.0)
+    history = simulate(Exposures(when, doses), PIGMENTATIONS[name], mmd=2.89, med=1.7, hours=hours)
+    assert np.array_equal(history.hours, np.arange(hours + 1))
+    assert np.allclose(history.states, expected, rtol=1e-12, atol=0.0)
 
 
 @settings(max_examples=30, deadline=None)
@@ -181,8 +177,8 @@ def test_any_parameters_give_what_the_equations_say(rates, decays, exponent, con
         (0.01, *production[1:]), transfer, extra_production, extra_transfer, *decays
     )
     dynamics = replace(dynamics, hill_exponent=exponent, hill_constant=constant)
-    found = simulate(Exposures([3], [dose]), dynamics, mmd=1.0, med=1.0, hours=60).states
-    assert np.all(np.isfinite(found)) and np.all(found >= 0.0)
+    states = simulate(Exposures([3], [dose]), dynamics, mmd=1.0, med=1.0, hours=60).states
+    assert np.all(np.isfinite(states)) and np.all(states >= 0.0)
     signal = np.float64(dose) ** exponent
     if np.isfinite(signal * 60.0**exponent):
         doses = np.zeros(61)
@@ -190,92 +186,7 @@ def test_any_parameters_give_what_the_equations_say(rates, decays, exponent, con
         with np.errstate(all="ignore"):
             expected = by_the_letter(doses, dynamics, ThicknessDynamics(), 1.0, 1.0)
         if np.all(np.isfinite(expected)):
-            assert np.allclose(found, expected, rtol=1e-9, atol=1e-12)
-
-
-def test_states_at_any_times():
-    """In any order, interpolated between two hours, whatever else is asked for."""
-    dynamics, exposures = PIGMENTATIONS["low"], Exposures([0, 30], [[10.0, 5.0], [3.0, 20.0]])
-    hourly = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=200).states
-    times = np.array([200.0, 0.0, 17.25, 17.0, 99.5])
-    found = states_at(exposures, dynamics, times=times, mmd=2.89, med=1.7)
-    between = 0.75 * hourly[:, 17] + 0.25 * hourly[:, 18]
-    expected = [hourly[:, 200], hourly[:, 0], between, hourly[:, 17]]
-    expected.append(0.5 * hourly[:, 99] + 0.5 * hourly[:, 100])
-    assert np.allclose(found, np.stack(expected, axis=1), rtol=1e-15)
-    alone = states_at(exposures, dynamics, times=[17.25], mmd=2.89, med=1.7)
-    assert np.array_equal(alone[:, 0], found[:, 2])
-    nothing = states_at(exposures, dynamics, times=[], mmd=2.89, med=1.7)
-    assert nothing.shape == (2, 0, 4)
-
-
-def test_nothing_is_simulated_past_the_last_time(monkeypatch):
-    simulated = []
-
-    def recorded(steps, histories):
-        simulated.append(steps)
-        return no_steps(steps, histories)
-
-    monkeypatch.setattr(simulation, "no_steps", recorded)
-    late = Exposures([0, 800_000], [10.0, 10.0])
-    found = states_at(late, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
-    assert max(simulated) == 49  # hours 0 to 48
-    early = Exposures([0], [10.0])
-    expected = states_at(early, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
-    assert np.array_equal(found, expected)
-
-
-MELANIN_ERROR = {2: 0.002, 3: 0.0033, 6: 0.011, 12: 0.032, 24: 0.09}
-TOTAL_ERROR = {2: 0.001, 3: 0.0014, 6: 0.0046, 12: 0.015, 24: 0.052}
-THICKNESS_ERROR = {2: 0.0085, 3: 0.0142, 6: 0.030, 12: 0.063, 24: 0.105}
-
-
-@pytest.mark.parametrize("step", list(MELANIN_ERROR))
-def test_longer_steps_give_the_same_curve(step):
-    """Within the error that `states_at` states, at the steps and between them."""
-    random = np.random.default_rng(step)
-    when = random.choice(1440, 11, replace=False)
-    exposures = Exposures(when, random.uniform(0.35, 10.5, (8, 11)))
-    asked = {"times": np.arange(0.0, 1441.0), "mmd": 1.0, "med": 0.6}
-    for dynamics in PIGMENTATIONS.values():
-        hourly = states_at(exposures, dynamics, **asked)
-        apart = states_at(exposures, dynamics, step=step, **asked) - hourly
-        assert np.abs(apart[..., :3]).max() < MELANIN_ERROR[step]
-        assert np.abs(apart[..., :3].sum(axis=-1)).max() < TOTAL_ERROR[step]
-        assert np.abs(apart[..., 3]).max() < THICKNESS_ERROR[step]
-
-
-def test_a_step_may_be_a_float():
-    dynamics, exposures = PIGMENTATIONS["low"], Exposures([0], [10.0])
-    asked = {"times": [7.0, 48.0], "mmd": 2.89, "med": 1.7}
-    whole = states_at(exposures, dynamics, step=3, **asked)
-    assert np.array_equal(states_at(exposures, dynamics, step=3.0, **asked), whole)
-
-
-@pytest.mark.parametrize("step", [1 / 2, 1 / 3, 1 / 60])
-def test_shorter_steps_meet_the_curve_at_every_hour(step):
-    dynamics, exposures = PIGMENTATIONS["high"], Exposures([0, 7], [10.0, 20.0])
-    hourly = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=50)
-    finer = simulate(exposures, dynamics, mmd=2.89, med=1.7, hours=50, step=step)
-    assert finer.hours[-1] == pytest.approx(50.0)
-    parts = round(1.0 / step)
-    assert np.allclose(finer.states[::parts], hourly.states, rtol=1e-13)
-    low = np.minimum(hourly.states[:-1], hourly.states[1:])
-    high = np.maximum(hourly.states[:-1], hourly.states[1:])
-    inside = finer.states[parts // 2 : -1 : parts]
-    assert np.all((inside >= low - 1e-12) & (inside <= high + 1e-12))
-
-
-@pytest.mark.parametrize("step", [0, -1, 1.5, 0.4, 25, 1e-3, float("nan"), "1", True])
-def test_a_bad_step_is_named(step):
-    with pytest.raises(InputError, match="step is .* allowed is 1 to 24 in whole numbers"):
-        simulate(Exposures(), PIGMENTATIONS["low"], mmd=1.0, med=1.0, hours=10, step=step)
-
-
-@pytest.mark.parametrize("times", [[-1.0], [np.nan], [1e9], 5.0, [[1.0]], "noon", [[1.0], 2.0]])
-def test_bad_times_are_named(times):
-    with pytest.raises(InputError, match="times are .* (allowed is|expected an)"):
-        states_at(Exposures(), PIGMENTATIONS["low"], times=times, mmd=1.0, med=1.0)
+            assert np.allclose(states, expected, rtol=1e-9, atol=1e-12)
 
 
 @pytest.mark.parametrize("name", list(PIGMENTATIONS))
@@ -292,12 +203,12 @@ def test_a_thousand_exposures():
     doses = np.zeros(24_001)
     doses[hours] = 10.0
     dynamics = PIGMENTATIONS["intermediate"]
-    found = simulate(
+    history = simulate(
         Exposures(hours, np.full(1000, 10.0)), dynamics, mmd=2.89, med=1.7, hours=24_000
     )
     expected = by_the_letter(doses, dynamics, ThicknessDynamics(), 2.89, 1.7)
-    assert np.allclose(found.states, expected, rtol=1e-11)
-    days = found.total[:24_000].reshape(1000, 24)
+    assert np.allclose(history.states, expected, rtol=1e-11)
+    days = history.total[:24_000].reshape(1000, 24)
     assert np.abs(days[900] - days[901]).max() < 1e-9
 
 
@@ -327,39 +238,6 @@ def test_the_response_saturates():
         transfer=tuple(np.add(bound.transfer, bound.extra_transfer)),
     )
     assert most[480] == pytest.approx(full.steady_state().sum(), rel=0.05)
-
-
-def test_many_histories_at_once_equal_each_alone(monkeypatch):
-    random = np.random.default_rng(3)
-    hours = np.sort(random.choice(400, 6, replace=False))
-    doses = random.uniform(0.0, 30.0, (7, 6))
-    dynamics = PIGMENTATIONS["high"]
-    together = simulate(Exposures(hours, doses), dynamics, mmd=5.0, med=3.0, hours=500)
-    monkeypatch.setattr(simulation, "CELLS_TOGETHER", 1500)  # two or three of them at once
-    parted = simulate(Exposures(hours, doses), dynamics, mmd=5.0, med=3.0, hours=500)
-    assert np.array_equal(parted.states, together.states)
-    for index in range(7):
-        alone = simulate(Exposures(hours, doses[index]), dynamics, mmd=5.0, med=3.0, hours=500)
-        assert np.array_equal(together.melanin[index], alone.melanin)
-        assert np.array_equal(together.thickness[index], alone.thickness)
-
-
-@pytest.mark.parametrize("shape", [(), (3,), (2, 3), (0,), (2, 0)])
-@pytest.mark.parametrize("count", [0, 1, 5])
-@pytest.mark.parametrize("step", [1, 3, 24])
-def test_histories_of_any_shape_and_times_in_any_order(shape, count, step):
-    """Each as alone, and each time as alone, to the last bit; doses out of order and doubled."""
-    random = np.random.default_rng(7)
-    when = np.array([600, 3, 3, 150, 24])[:count]
-    doses = random.uniform(0.0, 30.0, (*shape, count))
-    asked = {"mmd": 2.89, "med": 1.7, "step": step}
-    times = [700.25, 0.0, 3.0, 577.0, 577.0]
-    found = states_at(Exposures(when, doses), PIGMENTATIONS["low"], times=times, **asked)
-    assert found.shape == (*shape, 5, 4)
-    for place in np.ndindex(shape):
-        one = Exposures(when, doses[place])
-        once = [states_at(one, PIGMENTATIONS["low"], times=[time], **asked)[0] for time in times]
-        assert np.array_equal(found[place], once)
 
 
 def test_two_doses_in_one_hour_are_one_dose():
@@ -482,50 +360,3 @@ def test_a_dose_for_the_thickness_of_its_own():
     thin = simulate(Exposures([0], [10.0], [0.0]), dynamics, mmd=2.89, med=1.7, hours=100)
     assert np.array_equal(thin.melanin, usual.melanin)
     assert np.all(thin.thickness == thin.thickness[0])
-
-
-WAVELENGTHS = np.arange(280.0, 401.0, 1.0)
-
-
-@pytest.mark.parametrize("name", ["erythema_action", "melanogenesis_action"])
-def test_light_of_298_nm_counts_in_full(name):
-    """A narrow line of 100 J/m^2 at 298 nm is 1 SED, whatever the skin's absorptance."""
-    line = np.where(WAVELENGTHS == 298.0, 100.0, 0.0)
-    action = published_spectra()[name].at(WAVELENGTHS)
-    for absorptance in (np.full(121, 0.9), np.linspace(0.99, 0.4, 121)):
-        dose = equivalent_dose(WAVELENGTHS, line, action, absorptance)
-        assert dose == pytest.approx(1.0, rel=1e-12)
-
-
-def test_a_spectral_dose_is_weighed_by_action_and_absorptance():
-    """5.3 over 5.2 by hand: flat light, flat skin, erythema action 1 to 298 and 10^0.094(298 - l)
-    to 328 nm."""
-    wavelengths = np.arange(290.0, 328.01, 0.5)
-    action = np.where(wavelengths <= 298.0, 1.0, 10.0 ** (0.094 * (298.0 - wavelengths)))
-    dose = equivalent_dose(wavelengths, np.full(wavelengths.size, 50.0), action, np.full(77, 0.8))
-    tail = (1.0 - 10.0 ** (-0.094 * 30.0)) / (0.094 * np.log(10.0))
-    assert dose == pytest.approx(50.0 * (8.0 + tail) / 100.0, rel=1e-3)
-    half = equivalent_dose(
-        wavelengths, np.full((3, 77), 25.0), action, np.full(wavelengths.size, 0.8)
-    )
-    assert half == pytest.approx(np.full(3, 0.5 * dose))
-
-
-@pytest.mark.parametrize(
-    ("change", "sentence"),
-    [
-        ({"wavelengths": WAVELENGTHS[::-1]}, "at least two wavelengths, ascending"),
-        ({"wavelengths": WAVELENGTHS + 30.0}, "it must enclose 298 nm"),
-        ({"exposure": np.full(121, -1.0)}, "negative or not a number"),
-        ({"absorptance": np.zeros(121)}, "absorbs nothing at 298 nm"),
-    ],
-)
-def test_a_bad_spectral_dose_is_named(change, sentence):
-    usual = {
-        "wavelengths": WAVELENGTHS,
-        "exposure": np.ones(121),
-        "action": np.ones(121),
-        "absorptance": np.full(121, 0.9),
-    }
-    with pytest.raises(InputError, match=sentence):
-        equivalent_dose(**{**usual, **change})

@@ -16,7 +16,7 @@ from hylios.skin import Skin, varied
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import SPECIMENS, Specimen, parameters, specimen_of
-from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory, simulate
+from hylios.tanning import PIGMENTATIONS, Exposures, TanningHistory
 
 VISIBLE = np.arange(400.0, 701.0, 20.0)
 ULTRAVIOLET = np.arange(300.0, 381.0, 20.0)
@@ -32,13 +32,7 @@ def seen(specimen: Specimen) -> np.ndarray:
 
 def after(skin: Skin, *doses: float) -> TanningHistory:
     """Histories after single doses in SED, one each."""
-    return simulate(
-        Exposures([0], np.array(doses)[:, None]),
-        skin.dynamics,
-        mmd=skin.mmd,
-        med=skin.med,
-        hours=24 * DAYS,
-    )
+    return skin.history(Exposures([0], np.array(doses)[:, None]), 24 * DAYS)
 
 
 def largest_change(skin: Skin, history: TanningHistory, index: int = 0) -> float:
@@ -202,13 +196,8 @@ def test_reflectance_in_the_ultraviolet_converges_with_melanin():
 def test_no_tan_of_a_type_overfills_a_layer(name):
     """Ten MMD on each of 30 days."""
     skin = phototype(name).skin
-    history = simulate(
-        Exposures(24 * np.arange(30), np.full(30, 10.0 * skin.mmd)),
-        skin.dynamics,
-        mmd=skin.mmd,
-        med=skin.med,
-        hours=24 * DAYS,
-    )
+    sun = Exposures(24 * np.arange(30), np.full(30, 10.0 * skin.mmd))
+    history = skin.history(sun, 24 * DAYS)
     assert not any(skin.overfull(state) for state in history.states)
     assert history.total.max() < 2.6
 

@@ -20,6 +20,7 @@ from hylios.skin.specimen import (
     with_values,
 )
 from hylios.tissue import Stack
+from hylios.tissue.melanosome_survival import is_tabulated
 from hylios.transport.simulate import spectrum
 
 S3 = SPECIMENS["S3"]
@@ -168,6 +169,14 @@ def test_all_of_physiology_gives_finite_optical_layers(values, wavelength):
 
 
 REFUSAL = re.compile(r"(granulosum|spinosum|basale)_thickness is .* cm[;,] .*\.")
+
+
+@settings(deadline=None, max_examples=150, derandomize=True)
+@given(values=PHYSIOLOGICAL, wavelength=st.floats(250.0, 2500.0))
+def test_all_of_physiology_can_be_solved(values, wavelength):
+    """The table of survival reaches as far as the physiological shapes and indices do."""
+    stack = Stack.of(specimen_of(consistent(values, 43.0)), wavelength)
+    assert all(is_tabulated(layer, stack.melanin_index) for layer in stack.layers[1:4])
 
 
 @settings(deadline=None, max_examples=300, derandomize=True)

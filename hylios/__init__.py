@@ -109,9 +109,9 @@ def _missing(name: str, module: str) -> str:
     if module.startswith("hylios"):
         return (
             f"hylios.{name} is not in this copy of hylios, which a Blender add-on carries; "
-            "`pip install skin-tan` has all of it."
+            "the project's own installation has all of it."
         )
-    return f"hylios.{name} needs the module {module!r}; `pip install skin-tan` brings it."
+    return f"hylios.{name} needs the module {module!r}; install the project with its requirements."
 
 
 def __dir__() -> list[str]:

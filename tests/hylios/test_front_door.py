@@ -105,5 +105,5 @@ def test_the_part_that_the_add_on_carries_says_what_it_lacks(tmp_path):
     )
     assert " ".join(in_python(code, tmp_path)) == (
         "hylios.walk_spectrum is not in this copy of hylios, which a Blender add-on carries; "
-        "`pip install skin-tan` has all of it."
+        "the project's own installation has all of it."
     )

@@ -62,7 +62,7 @@ def _connected(address: str) -> Iterator:
         import distributed  # noqa: F401
     except ImportError as error:
         raise InputError(
-            "a Dask cluster needs the package distributed: in a checkout, pip install '.[cluster]'."
+            "a Dask cluster needs the package distributed: pip install '.[cluster]' in a checkout."
         ) from error
     _quieten()
     _require_reachable(address)

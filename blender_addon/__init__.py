@@ -5,7 +5,7 @@
 - `apply`: from an object's settings through `model` to `scene`.
 - `props`, `ops`, `ui`: what an artist sets, the buttons, the panels.
 
-Imports go one way: ui -> ops -> apply -> model and scene; props -> model. What Apply leaves in a
+Imports go one way: ui -> ops -> apply -> props and scene, props -> model. What Apply leaves in a
 file needs neither this add-on nor scripts. This module imports no bpy, so that `model` can be used
 and tested where there is no Blender.
 """

@@ -8,6 +8,7 @@ from hylios.errors import InputError, require_range
 from .model import doses
 from .model.settings import TanSettings
 from .model.tan import Tan, tan_of
+from .props import settings_of
 from .scene import attributes, images, materials, nodes, timeline
 from .scene.ownership import NewBlocks, is_local, names
 
@@ -25,8 +26,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         If the object cannot carry a tan, or a setting or the table cannot be used.
     """
     obj = tannable(obj)
-    settings = obj.skin_tan
-    attributes.check_mask(obj.data, settings.mask_attribute)
+    settings = settings_of(obj)
+    attributes.check_mask(obj, settings.mask_attribute)
     timeline.check_frames(settings.first_frame, settings.last_frame)
     unit = _scene_unit(scene)
     values = settings.values()
@@ -93,7 +94,7 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float, blocks: NewBlocks) ->
         has_profile=has_profile,
         first_day=tan.first_day,
         last_day=tan.last_day,
-        mask_attribute=obj.skin_tan.mask_attribute,
+        mask_attribute=settings_of(obj).mask_attribute,
         scene_unit=unit,
     )
 

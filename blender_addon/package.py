@@ -15,6 +15,7 @@ import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any, cast
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 import bpy
@@ -155,7 +156,7 @@ def _digest(content: bytes) -> str:
 
 
 def _extension_tool(*arguments: str) -> None:
-    folder = bpy.utils.system_resource("SCRIPTS", path="addons_core/bl_pkg/cli")
+    folder = cast(Any, bpy.utils).system_resource("SCRIPTS", path="addons_core/bl_pkg/cli")
     tool = [sys.executable, str(Path(folder, "blender_ext.py"))]
     done = subprocess.run([*tool, *arguments], capture_output=True, text=True)
     if done.returncode:

@@ -1,5 +1,7 @@
 """All classes of the add-on, and where Blender keeps their properties."""
 
+from typing import Any
+
 import bpy
 
 from . import ops, props, ui
@@ -10,10 +12,12 @@ CLASSES = (*props.CLASSES, *ops.CLASSES, *ui.CLASSES)
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Object.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
+    objects: Any = bpy.types.Object
+    objects.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
 
 
 def unregister():
-    del bpy.types.Object.skin_tan
+    objects: Any = bpy.types.Object
+    del objects.skin_tan
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

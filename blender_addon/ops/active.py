@@ -1,11 +1,16 @@
 """The object that an operator works on."""
 
+from typing import Any, cast
+
 import bpy
+
+from ..props import SkinTanSettings, settings_of
 
 
 def active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     """The active object, or the one that `temp_override` names; works without a window too."""
-    active = context.view_layer.objects.active if context.view_layer else None
+    layer = cast(Any, context).view_layer
+    active = layer.objects.active if layer else None
     for name in ("object", "active_object"):
         obj = getattr(context, name, None)
         if obj is not None and obj != active:
@@ -13,7 +18,18 @@ def active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     return active
 
 
+def current_scene(context: bpy.types.Context) -> bpy.types.Scene:
+    return cast(Any, context).scene
+
+
 def active_mesh(context: bpy.types.Context) -> bpy.types.Object | None:
     """The active object where that is a mesh."""
     obj = active_object(context)
     return obj if obj is not None and obj.type == "MESH" else None
+
+
+def active_settings(context: bpy.types.Context) -> SkinTanSettings:
+    """What is set on the active mesh, where `poll` found one."""
+    obj = active_mesh(context)
+    assert obj is not None
+    return settings_of(obj)

@@ -5,7 +5,7 @@ import bpy
 from hylios.errors import InputError
 
 from ..apply import apply_tan
-from .active import active_object
+from .active import active_object, current_scene
 
 
 class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
@@ -16,7 +16,7 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         try:
-            message = apply_tan(active_object(context), context.scene)
+            message = apply_tan(active_object(context), current_scene(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

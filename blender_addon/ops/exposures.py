@@ -2,7 +2,7 @@
 
 import bpy
 
-from .active import active_mesh
+from .active import active_mesh, active_settings
 
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
@@ -16,7 +16,7 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
         return active_mesh(context) is not None
 
     def execute(self, context):
-        settings = active_mesh(context).skin_tan
+        settings = active_settings(context)
         settings.exposures.add()
         settings.exposure_index = len(settings.exposures) - 1
         return {"FINISHED"}
@@ -30,11 +30,10 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        obj = active_mesh(context)
-        return obj is not None and len(obj.skin_tan.exposures) > 0
+        return active_mesh(context) is not None and len(active_settings(context).exposures) > 0
 
     def execute(self, context):
-        settings = active_mesh(context).skin_tan
+        settings = active_settings(context)
         last = len(settings.exposures) - 1
         settings.exposures.remove(min(settings.exposure_index, last))
         settings.exposure_index = max(0, min(settings.exposure_index, last - 1))

@@ -1,6 +1,7 @@
 """The button that saves an object's exposures."""
 
 from pathlib import Path
+from typing import Any, cast
 
 import bpy
 from bpy_extras.io_utils import ExportHelper
@@ -10,6 +11,7 @@ from hylios.files import require_target, written_beside
 
 from ..apply import tannable
 from ..model.schedule import csv_text
+from ..props import settings_of
 from .active import active_mesh, active_object
 
 
@@ -25,7 +27,7 @@ class SKIN_TAN_OT_export_schedule(bpy.types.Operator, ExportHelper):  # noqa: N8
         return active_mesh(context) is not None
 
     def execute(self, context):
-        path = Path(bpy.path.abspath(self.filepath))
+        path = Path(bpy.path.abspath(cast(Any, self).filepath))
         try:
             _export(tannable(active_object(context)), path)
         except InputError as error:
@@ -37,6 +39,6 @@ class SKIN_TAN_OT_export_schedule(bpy.types.Operator, ExportHelper):  # noqa: N8
 
 def _export(obj: bpy.types.Object, path: Path) -> None:
     require_target(path, (".csv",), replacing=True)
-    text = csv_text(obj.name, obj.skin_tan.values())
+    text = csv_text(obj.name, settings_of(obj).values())
     with written_beside(path) as beside:
         beside.write_text(text, encoding="utf-8")

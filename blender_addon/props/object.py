@@ -1,6 +1,7 @@
 """All that an artist sets on one object."""
 
 from pathlib import Path
+from typing import Any, cast
 
 import bpy
 from bpy.props import (
@@ -25,6 +26,11 @@ from ..model.settings import (
 )
 from .exposure import SkinTanExposure
 from .skins import SKIN_ITEMS, USUAL_SKIN
+
+
+def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
+    """What is set on an object."""
+    return cast(Any, obj).skin_tan
 
 
 class SkinTanSettings(bpy.types.PropertyGroup):
@@ -133,7 +139,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         if self.skin != FILE:
             return shipped_path(self.skin)
         if not self.table_path:
-            raise InputError("No table is chosen: set the path of a skin table (an EXR file).")
+            raise InputError("No table is set: choose the path of a skin table (an EXR file).")
         return Path(bpy.path.abspath(self.table_path))
 
     def own_doses(self) -> MinimalDoses | None:

@@ -1,14 +1,20 @@
 """Attributes of a mesh that can say how much sun reaches each point."""
 
+from typing import cast
+
 import bpy
 
 from hylios.errors import InputError
 
 
-def check_mask(mesh: bpy.types.Mesh, name: str) -> None:
-    """Raise InputError unless an attribute can hold the share of the dose, or none is named."""
+def check_mask(obj: bpy.types.Object, name: str) -> None:
+    """Raise InputError unless an attribute of a mesh object can hold the share of the dose.
+
+    No name stands for no mask.
+    """
     if not name:
         return
+    mesh = cast(bpy.types.Mesh, obj.data)
     attribute = mesh.attributes.get(name)
     if attribute is None:
         usable = [item.name for item in mesh.attributes if _is_mask(item) and not item.is_internal]

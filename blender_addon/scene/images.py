@@ -1,5 +1,7 @@
 """Float images that carry a table of numbers inside the .blend."""
 
+from typing import Any, cast
+
 import bpy
 import numpy as np
 
@@ -45,7 +47,7 @@ def packed_image(
     set_colour_space(image, is_colour=is_colour)
     pixels = np.ones((rows, columns, 4), dtype=np.float32)
     pixels[..., :3] = values
-    image.pixels.foreach_set(pixels.ravel())
+    cast(Any, image.pixels).foreach_set(pixels.ravel())
     image.update()
     image.pack()
     # Blender takes pixels that are set for numbers of its working space; those that it reads from
@@ -63,9 +65,10 @@ def set_colour_space(image: bpy.types.Image, *, is_colour: bool) -> None:
         If Blender's colour management has no such space.
     """
     names = COLOUR_SPACES if is_colour else DATA_SPACES
+    settings: Any = image.colorspace_settings
     for name in names:
         try:
-            image.colorspace_settings.name = name
+            settings.name = name
         except TypeError:
             continue
         return

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any, cast
 
 import bpy
 
 from . import nodes
-from .ownership import NewBlocks, Users, is_local
+from .ownership import NewBlocks, Users, is_local, remembered
 
 PREFIX = "Skin Tan "
 
@@ -31,14 +32,15 @@ class Skin:
     material: bpy.types.Material
     users: Users
     others: set[bpy.types.ID] = field(default_factory=set)
-    _chain: list[bpy.types.ID] = field(default_factory=list)
-    _copies: dict[bpy.types.ID, bpy.types.ID] = field(default_factory=dict)
+    _chain: list[Any] = field(default_factory=list)
+    _copies: dict[Any, Any] = field(default_factory=dict)
 
     def attach(self, obj: bpy.types.Object) -> str:
         """Have the object show the group, and return a sentence on it."""
         for block in self._chain:
             _repoint(_tree(self._copies.get(block, block)), self._copies)
-        obj.skin_tan.group, obj.skin_tan.material = self.group, self.material
+        settings = remembered(obj)
+        settings.group, settings.material = self.group, self.material
         slots = [slot for slot in obj.material_slots if slot.material in self._chain]
         for slot in slots:
             if slot.material in self._copies:
@@ -61,14 +63,14 @@ def prepare(obj: bpy.types.Object, blocks: NewBlocks) -> Skin:
     users = Users()
     materials = list(dict.fromkeys(slot.material for slot in obj.material_slots if slot.material))
     group = _group_of(obj, materials)
-    if group is None and obj.skin_tan.material is not None:
-        materials = [obj.skin_tan.material]
+    if group is None and remembered(obj).material is not None:
+        materials = [remembered(obj).material]
         group = _group_of(obj, materials)
     if group is None:
         return _new_skin(obj, blocks, users)
     nodes.require_readable(group)
-    chain = list(_chain(materials, group))
-    copies = {
+    chain: list[Any] = list(_chain(materials, group))
+    copies: dict[Any, Any] = {
         block: _copy(block, obj, blocks)
         for block in chain
         if not is_local(block) or users.others(block, obj)
@@ -99,7 +101,7 @@ def _new_skin(obj: bpy.types.Object, blocks: NewBlocks, users: Users) -> Skin:
         material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
-    skin = tree.nodes.new("ShaderNodeGroup")
+    skin: Any = tree.nodes.new("ShaderNodeGroup")
     skin.node_tree, skin.width, skin.location = group, 200, (0, 0)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (260, 0)
@@ -112,14 +114,14 @@ def _group_of(
 ) -> bpy.types.NodeTree | None:
     """The tan group in an object's materials: its own, or else the active material's, or any."""
     shown = [group for material in materials for group in _tan_groups(_tree(material))]
-    if obj.skin_tan.group in shown:
-        return obj.skin_tan.group
+    if remembered(obj).group in shown:
+        return remembered(obj).group
     if obj.active_material in materials:
         shown = [*_tan_groups(_tree(obj.active_material)), *shown]
     return shown[0] if shown else None
 
 
-def _tree(block: bpy.types.ID) -> bpy.types.NodeTree | None:
+def _tree(block: bpy.types.Material | bpy.types.NodeTree) -> bpy.types.NodeTree | None:
     return block.node_tree if isinstance(block, bpy.types.Material) else block
 
 
@@ -162,7 +164,8 @@ def _holding(
 
 def _repoint(tree: bpy.types.NodeTree | None, copies: dict) -> None:
     """Put copies in place of node groups."""
-    for node in tree.nodes if tree else ():
+    nodes_of_groups: Any = tree.nodes if tree else ()
+    for node in nodes_of_groups:
         if getattr(node, "node_tree", None) in copies:
             node.node_tree = copies[node.node_tree]
 
@@ -176,8 +179,8 @@ def _set_slot(obj: bpy.types.Object, slot, material: bpy.types.Material) -> None
 
 def _put_in_active_slot(obj: bpy.types.Object, material: bpy.types.Material) -> str:
     if not obj.material_slots:
-        obj.data.materials.append(None)
-    slot = obj.material_slots[obj.active_material_index]
+        cast(bpy.types.Mesh, obj.data).materials.append(None)
+    slot = obj.material_slots[obj.active_material_index or 0]
     former = slot.material
     _set_slot(obj, slot, material)
     if former is None:

@@ -121,7 +121,7 @@ def new_group(blocks: NewBlocks, name: str) -> bpy.types.NodeTree:
 
 
 def update(group: bpy.types.NodeTree, sampled: Sampled) -> dict[bpy.types.Image, bpy.types.Image]:
-    """Have a tan's group show other images, and return by which each of the former was replaced.
+    """Have a tan's group show other images, and return which new one replaces which former one.
 
     What an artist changed in it otherwise stays: nodes, links, values.
     """

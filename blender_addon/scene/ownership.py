@@ -6,7 +6,7 @@ may be changed in place; of what others show too, the object gets a copy of its 
 
 from collections.abc import Iterable
 from types import TracebackType
-from typing import TypeVar
+from typing import Any, TypeVar, cast
 
 import bpy
 
@@ -48,21 +48,21 @@ class Users:
         Materials that nothing shows do not count, nor objects that were given another material
         since Apply.
         """
-        found, seen, waiting = set(), {block}, [block]
+        others, seen, waiting = set(), {block}, [block]
         while waiting:
             used = waiting.pop()
             for user in self._users.get(used, set()) - seen:
                 if isinstance(user, bpy.types.Object):
                     if user != obj and not _is_only_remembered(user, used):
-                        found.add(user)
+                        others.add(user)
                 elif isinstance(user, bpy.types.Material | bpy.types.NodeTree):
                     seen.add(user)
                     waiting.append(user)
                 elif isinstance(used, bpy.types.Material) and hasattr(user, "materials"):
-                    found |= self._showing(user, used) - {obj}
+                    others |= self._showing(user, used) - {obj}
                 else:
-                    found.add(user)
-        return found
+                    others.add(user)
+        return others
 
     def _showing(self, data: bpy.types.ID, material: bpy.types.Material) -> set[bpy.types.ID]:
         """Objects of a mesh, or of other data with materials, that have a material in a slot."""
@@ -76,8 +76,13 @@ def _has_in_slot(obj: bpy.types.Object, material: bpy.types.ID) -> bool:
 
 def _is_only_remembered(obj: bpy.types.Object, block: bpy.types.ID) -> bool:
     """Whether an object has a data-block in its settings from an earlier Apply and nowhere else."""
-    settings = obj.skin_tan
+    settings = remembered(obj)
     return block in (settings.group, settings.material) and not _has_in_slot(obj, block)
+
+
+def remembered(obj: bpy.types.Object) -> Any:
+    """The settings of an object, whose `group` and `material` are those of its last Apply."""
+    return cast(Any, obj).skin_tan
 
 
 def is_local(block: bpy.types.ID) -> bool:

@@ -1,5 +1,7 @@
 """The day on the timeline: a keyed custom property of the object, which needs no script."""
 
+from typing import Any, cast
+
 import bpy
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 
@@ -40,7 +42,7 @@ def key_days(
     curve.extrapolation = "CONSTANT"
     curve.update()
     obj[DAY_PROPERTY] = curve.evaluate(scene.frame_current_final)
-    obj.id_properties_ui(DAY_PROPERTY).update(description="Day of the tan", precision=2)
+    cast(Any, obj).id_properties_ui(DAY_PROPERTY).update(description="Day of the tan", precision=2)
     animation = obj.animation_data or obj.animation_data_create()
     # A new assignment has Blender sort out anew what follows what; without, a strip of the NLA
     # would go on covering the action.
@@ -69,6 +71,6 @@ def _curve(action: bpy.types.Action, slot: bpy.types.ActionSlot) -> bpy.types.FC
     bag = action_get_channelbag_for_slot(action, slot)
     if bag is None:
         layer = action.layers[0] if action.layers else action.layers.new("Layer")
-        strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+        strip: Any = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
         bag = strip.channelbag(slot, ensure=True)
     return bag.fcurves.find(DATA_PATH) or bag.fcurves.new(DATA_PATH)

@@ -6,6 +6,7 @@ from hylios.errors import InputError
 
 from ..model import summary
 from ..model.settings import Exposure
+from ..props import SkinTanSettings
 from .lines import draw_lines
 
 FIELDS = {
@@ -28,7 +29,7 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
             row.label(text=summary.of_exposure(Exposure.of(item)))
 
 
-def draw_exposures(layout: bpy.types.UILayout, settings) -> None:
+def draw_exposures(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
     row = layout.row()
     row.template_list(
         "SKIN_TAN_UL_exposures", "", settings, "exposures", settings, "exposure_index", rows=3
@@ -54,7 +55,7 @@ def draw_exposures(layout: bpy.types.UILayout, settings) -> None:
     draw_lines(layout, *dose_lines(settings, Exposure.of(exposure)))
 
 
-def dose_lines(settings, exposure: Exposure) -> tuple[tuple[str, ...], str]:
+def dose_lines(settings: SkinTanSettings, exposure: Exposure) -> tuple[tuple[str, ...], str]:
     """Short lines on the dose that reaches the skin in an exposure, and their icon."""
     try:
         lines = summary.of_dose(exposure, settings.table_file(), settings.own_doses())

@@ -1,5 +1,7 @@
 """The panel, from top to bottom."""
 
+from typing import cast
+
 import bpy
 
 from hylios.errors import InputError
@@ -7,6 +9,7 @@ from hylios.errors import InputError
 from ..model import summary
 from ..model.catalogue import FILE
 from ..ops.active import active_mesh
+from ..props import SkinTanSettings, settings_of
 from ..scene.nodes import DAY_PROPERTY
 from .exposures import draw_exposures
 from .lines import draw_lines
@@ -20,13 +23,13 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
     bl_category = "Tan"
 
     def draw(self, context):
-        layout = self.layout
+        layout = cast(bpy.types.UILayout, self.layout)
         layout.use_property_decorate = False
         obj = active_mesh(context)
         if obj is None:
             layout.label(text="Select a mesh object", icon="INFO")
             return
-        settings = obj.skin_tan
+        settings = settings_of(obj)
         _draw_skin(_section(layout, "Skin"), settings)
         draw_exposures(_section(layout, "Time in the Sun"), settings)
         _draw_mask(_section(layout, "Where the Sun Reaches"), obj)
@@ -47,7 +50,7 @@ def _section(layout: bpy.types.UILayout, title: str) -> bpy.types.UILayout:
     return column
 
 
-def _draw_skin(layout: bpy.types.UILayout, settings) -> None:
+def _draw_skin(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
     layout.prop(settings, "skin", text="")
     if settings.skin == FILE:
         layout.prop(settings, "table_path", text="")
@@ -59,7 +62,7 @@ def _draw_skin(layout: bpy.types.UILayout, settings) -> None:
         column.prop(settings, "med")
 
 
-def skin_lines(settings) -> tuple[tuple[str, ...], str]:
+def skin_lines(settings: SkinTanSettings) -> tuple[tuple[str, ...], str]:
     """Short lines on what the skin's table says of it, and their icon."""
     if settings.skin == FILE and not settings.table_path:
         return ("Choose a skin table (EXR file)",), "INFO"
@@ -73,14 +76,13 @@ def skin_lines(settings) -> tuple[tuple[str, ...], str]:
 
 
 def _draw_mask(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    layout.prop_search(
-        obj.skin_tan, "mask_attribute", obj.data, "attributes", text="", icon="MOD_MASK"
-    )
-    if not obj.skin_tan.mask_attribute:
+    settings = settings_of(obj)
+    layout.prop_search(settings, "mask_attribute", obj.data, "attributes", text="", icon="MOD_MASK")
+    if not settings.mask_attribute:
         layout.label(text="No mask: the whole body is bare", icon="INFO")
 
 
-def _draw_timeline(layout: bpy.types.UILayout, settings) -> None:
+def _draw_timeline(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
     for day, frame in (("first_day", "first_frame"), ("last_day", "last_frame")):
         row = layout.row(align=True)
         row.prop(settings, day, text="Day")

@@ -247,7 +247,7 @@ def test_dose_that_is_no_number(body):
 def test_tables_that_cannot_be_used(body, table_path, tmp_path):
     settings = body.skin_tan
     settings.table_path = ""
-    refused("No table is chosen")
+    refused("No table is set")
     settings.table_path = str(tmp_path / "absent.exr")
     refused("absent.exr cannot be read: No such file")
     settings.table_path = str(tmp_path)

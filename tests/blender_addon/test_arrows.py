@@ -9,13 +9,13 @@ ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
     "registration.py": {"ops", "props", "ui"},
-    "apply.py": {"model", "scene", "hylios.errors"},
+    "apply.py": {"model", "scene", "props", "hylios.errors"},
     "package.py": {"hylios.errors", "hylios.files"},
     "model": {"model", "hylios"},
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "hylios.errors"},
-    "ops": {"ops", "apply", "model", "hylios.errors", "hylios.files"},
-    "ui": {"ui", "ops", "model", "scene", "hylios.errors"},
+    "ops": {"ops", "apply", "props", "model", "hylios.errors", "hylios.files"},
+    "ui": {"ui", "ops", "props", "model", "scene", "hylios.errors"},
 }
 """What each room may import of the add-on and of hylios."""
 

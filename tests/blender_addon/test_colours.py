@@ -36,9 +36,9 @@ from hylios.skin.specimen import SPECIMENS
 
 assert Path(hylios.__file__).is_relative_to(carried), hylios.__file__
 states = np.load(sys.argv[3])
-found = colours(Skin.of(SPECIMENS["S3"]), states, count=8)
+appearance = colours(Skin.of(SPECIMENS["S3"]), states, count=8)
 assert not {"numba", "scipy", "colour"} & set(sys.modules)
-np.save(sys.argv[4], found.total)
+np.save(sys.argv[4], appearance.total)
 
 for index in (1.5, 1.51, 1.52):  # all that depends on refraction is worked out anew
     changed = replace(SPECIMENS["S3"], corneum_refractive_index=index, papillary_blood=4.0)
@@ -57,8 +57,8 @@ def test_a_changed_skin_has_its_colours_in_a_second_in_blender(tmp_path):
         wheel.extractall(tmp_path / "carried")
     table = read_table(package.ADDON / "tables" / "S3.exr")
     states = table.axes.knot_states().reshape(-1, 4)
-    chosen = np.linspace(0, len(states) - 1, STATES).astype(int)
-    np.save(tmp_path / "states.npy", states[chosen])
+    sample = np.linspace(0, len(states) - 1, STATES).astype(int)
+    np.save(tmp_path / "states.npy", states[sample])
     arguments = [tmp_path / "carried", package.ADDON.parent, *map(tmp_path.joinpath, FILES)]
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT, *map(str, arguments)],
@@ -70,5 +70,5 @@ def test_a_changed_skin_has_its_colours_in_a_second_in_blender(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
     seconds = done.stdout.splitlines()[-3:]  # Blender may say something before
     assert min(map(float, seconds)) < 1.0
-    stored = table.planes["total_colour"].reshape(-1, 3)[chosen].astype(float)
+    stored = table.planes["total_colour"].reshape(-1, 3)[sample].astype(float)
     assert colour.difference(stored, np.load(tmp_path / "colours.npy")).mean() < 0.5

@@ -40,9 +40,9 @@ def part():
 
 def test_a_table_for_a_schedule_is_good_for_it(part):
     whole = build(SKIN, QUICK)
-    found, expected = (tan(each, of_sed(0, SUN), **SPAN) for each in (part, whole))
-    assert np.ptp(expected.colour[..., 0]) > 0.05
-    assert found.colour == pytest.approx(expected.colour, abs=0.003)
+    of_part, of_whole = (tan(table, of_sed(0, SUN), **SPAN) for table in (part, whole))
+    assert np.ptp(of_whole.colour[..., 0]) > 0.05
+    assert of_part.colour == pytest.approx(of_whole.colour, abs=0.003)
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ def test_the_builder_reads_the_schedule_as_it_is(table_path, tmp_path):
     head = [line for line in path.read_text().splitlines() if line.startswith("#")]
     for line in ("# skin: S3", "# MMD in SED: 4.9", "# MED in SED: 2.9", "# days: 30"):
         assert line in head
-    assert [each.name for each in tmp_path.iterdir()] == ["sun.csv"]
+    assert [path.name for path in tmp_path.iterdir()] == ["sun.csv"]
 
 
 def test_an_exported_schedule_gives_a_table_that_apply_takes(tmp_path):

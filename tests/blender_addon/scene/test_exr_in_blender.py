@@ -37,4 +37,4 @@ def test_blender_shows_a_table_s_planes_as_layers(table_path, table):
     group = bpy.data.node_groups.new("Layers", "CompositorNodeTree")
     node = group.nodes.new("CompositorNodeImage")
     node.image = image
-    assert {each.name for each in node.outputs} >= set(table.planes)
+    assert {output.name for output in node.outputs} >= set(table.planes)

@@ -1,8 +1,8 @@
 """How well the solver without noise agrees with the random walk: `make agreement`.
 
-Reflectance at 8 degrees of S1 to S4 and of tanned skins, from 250 to 2500 nm, by both. Writes every
-pair to a CSV file, a skin at a time: after Ctrl-C, --resume goes on. The default of ten million
-rays takes hours; a tenth tells the mean as well, for the walk's own noise is known and taken off.
+Both compute the reflectance at 8 degrees of S1 to S4 and of tanned skins, from 250 to 2500 nm. All
+pairs go to a CSV file, a skin at a time: after Ctrl-C, --resume goes on. The default of ten
+million rays takes hours; a tenth tells the mean as well, for the walk's own noise is subtracted.
 """
 
 import argparse
@@ -31,13 +31,13 @@ WAVELENGTHS = np.array(
 """Over the whole range; two in the blue and two in bands of blood and beyond, as colours need."""
 
 TANNED, SCHEDULES = 30, 60
-"""Tanned states in all, and how many random tans of each skin they are drawn from."""
+"""Tanned states in all, and random schedules of a skin from which its states are drawn."""
 
 LEAST_CHANGE = 0.02
-"""Of melanin in a layer or of thickness, for a state to count as tanned."""
+"""Relative change of a layer's melanin, or of thickness, that makes a state count as tanned."""
 
 MOST_RMS, MOST = 5e-4, 2e-3
-"""Differences that are aimed at: root mean square, and largest."""
+"""The largest root mean square difference, and the largest difference, that are aimed at."""
 
 ANGLE = 8.0
 DEFAULT = Path("out/agreement.csv")
@@ -45,7 +45,7 @@ DEFAULT = Path("out/agreement.csv")
 
 @dataclass(frozen=True)
 class Pair:
-    """Reflectance of one skin at one wavelength, by both.
+    """Reflectance of one skin at one wavelength, by both solvers.
 
     `state` is empty for S1 to S4 as they are, else melanin of basale, spinosum, granulosum and
     thickness. `error` is the walk's standard error.
@@ -86,7 +86,7 @@ class Agreement:
 
 
 def agreement(pairs: Sequence[Pair]) -> Agreement:
-    """Sum up pairs, at least one."""
+    """The agreement of one pair or more."""
     differences = np.array([pair.difference for pair in pairs])
     errors = np.array([pair.error for pair in pairs])
     square, noise = np.mean(differences**2), np.mean(errors**2)
@@ -96,7 +96,7 @@ def agreement(pairs: Sequence[Pair]) -> Agreement:
 
 
 def skins() -> dict[str, Skin]:
-    """Those that tan: S1 to S4 and the skin types."""
+    """Skins that tan: S1 to S4 and the skin types, by name."""
     types = {name: phototype(name).skin for name in PHOTOTYPES}
     return {**{name: Skin.of(specimen) for name, specimen in SPECIMENS.items()}, **types}
 
@@ -179,7 +179,7 @@ def read(path: Path) -> list[Pair]:
 
 
 def report(pairs: Sequence[Pair]) -> str:
-    """Agreement by skin, by wavelength and of all."""
+    """A table of the agreement by wavelength, by skin, and of all pairs."""
     lines = [f"{'':<12}{'pairs':>6}{'rms':>10}{'noise':>10}{'own rms':>10}{'largest':>10}"]
 
     def line(name: str, group: Sequence[Pair]) -> Agreement:
@@ -207,12 +207,12 @@ def _met(is_met: bool) -> str:
 
 
 def compare(arguments: argparse.Namespace) -> None:
-    """The command."""
+    """Compute the pairs that are missing, and print the agreement."""
     require_work(arguments)
     rays = require_whole("number of rays", arguments.rays, 100, MOST_RAYS)
     arguments.output.parent.mkdir(parents=True, exist_ok=True)
     pairs = read(arguments.output) if arguments.resume and arguments.output.exists() else []
-    # a seed of its own for each, or all would share their noise
+    # every specimen has its own seed, or all would share their noise
     tasks = {
         (name, state, rays, seed): specimen
         for seed, (name, state, specimen) in enumerate(
@@ -245,7 +245,7 @@ def compare(arguments: argparse.Namespace) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m examples.agreement", description=__doc__)
-    parser.add_argument("--rays", type=int, default=10_000_000, help="for each pair")
+    parser.add_argument("--rays", type=int, default=10_000_000, help="per pair")
     parser.add_argument("--resume", action="store_true", help="keep the pairs that are there")
     parser.add_argument("-o", "--output", type=Path, default=DEFAULT, metavar="FILE.csv")
     add_work_arguments(parser)

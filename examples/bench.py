@@ -1,8 +1,6 @@
-"""What this machine does: light, tanning and tables, timed on this run.
+"""Times light transport, tanning and tables on this machine: `make bench`."""
 
-python -m examples.bench
-"""
-
+import argparse
 import multiprocessing
 import os
 import resource
@@ -32,7 +30,7 @@ def timed(
     repeats: int = REPEATS,
     clock: Callable[[], float] = time.perf_counter,
 ) -> list[float]:
-    """Seconds of each of some runs, after one that is not counted."""
+    """Seconds of `repeats` runs, after one that is not counted."""
     work()
     seconds = []
     for _ in range(repeats):
@@ -42,11 +40,11 @@ def timed(
     return seconds
 
 
-def report(what: str, figures: list[float], unit: str) -> None:
-    """One line: median, least and most."""
+def report(what: str, runs: list[float], unit: str) -> None:
+    """Print a line: median, least and most of some runs."""
     print(
-        f"{what:<58} {statistics.median(figures):>10.4g} {unit}"
-        f"  ({min(figures):.4g} to {max(figures):.4g}, {len(figures)} runs)"
+        f"{what:<58} {statistics.median(runs):>10.4g} {unit}"
+        f"  ({min(runs):.4g} to {max(runs):.4g}, {len(runs)} runs)"
     )
 
 
@@ -62,14 +60,14 @@ def a_year(doses: np.ndarray) -> np.ndarray:
 
 
 def many_years(histories: int) -> tuple[float, float, bool]:
-    """Seconds, most memory of this process in MiB, and whether each history equals it alone."""
+    """Seconds, most memory of this process in MiB, and whether histories equal those made alone."""
     doses = np.random.default_rng(1).uniform(0.0, 30.0, (histories, 52))
     started = time.perf_counter()
     states = a_year(doses)
     seconds = time.perf_counter() - started
     mebibytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
-    some = range(0, histories, max(histories // 100, 1))
-    return seconds, mebibytes, all(np.array_equal(states[i], a_year(doses[i])) for i in some)
+    sample = range(0, histories, max(histories // 100, 1))
+    return seconds, mebibytes, all(np.array_equal(states[i], a_year(doses[i])) for i in sample)
 
 
 def report_tanning() -> None:
@@ -77,14 +75,15 @@ def report_tanning() -> None:
     year_of_doses = np.random.default_rng(1).uniform(0.0, 30.0, 52)
     milliseconds = [1e3 * seconds for seconds in timed(lambda: a_year(year_of_doses), 20)]
     report("tanning, a year in hours, one history", milliseconds, "ms")
-    figures = []
+    runs = []
     for _ in range(3):
         with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as process:
-            figures.append(process.submit(many_years, 10_000).result())
-    seconds, mebibytes, equal = zip(*figures, strict=True)
+            runs.append(process.submit(many_years, 10_000).result())
+    seconds, mebibytes, equal = zip(*runs, strict=True)
     report("tanning, a year in hours, 10,000 histories", list(seconds), "s")
     report("  memory of that process at most", list(mebibytes), "MiB")
-    print(f"  a hundred of them equal each alone to the last bit: {'yes' if all(equal) else 'NO'}")
+    same = "yes" if all(equal) else "NO"
+    print(f"  a hundred of them equal to the last bit those made alone: {same}")
 
 
 def main() -> None:
@@ -107,4 +106,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m examples.bench", description=__doc__).parse_args()
     main()

@@ -1,8 +1,6 @@
-"""What tables cost and are worth on this machine: the rows of `make bench` about tables.
+"""Times tables on this machine and measures their errors: the rows of `make bench` about tables."""
 
-python -m examples.bench_tables
-"""
-
+import argparse
 import subprocess
 import sys
 import tempfile
@@ -58,7 +56,7 @@ class Spent:
 
 
 def spent(work, repeats: int) -> tuple[Spent, object]:
-    """Time of each of some runs, and the last one's result."""
+    """Time of `repeats` runs of some work, and the last one's result."""
     clock, processor, result = [], [], None
     for _ in range(repeats):
         starts = time.perf_counter(), time.process_time()
@@ -68,28 +66,28 @@ def spent(work, repeats: int) -> tuple[Spent, object]:
     return Spent(clock, processor), result
 
 
-def ranged(figures: list[float]) -> str:
-    """Median, and least and most where there are several."""
-    text = f"{np.median(figures):.3g}"
-    return f"{text} ({min(figures):.3g} to {max(figures):.3g})" if len(figures) > 1 else text
+def ranged(seconds: list[float]) -> str:
+    """Median, and least and most where there are several runs."""
+    text = f"{np.median(seconds):.3g}"
+    return f"{text} ({min(seconds):.3g} to {max(seconds):.3g})" if len(seconds) > 1 else text
 
 
-def said(what: str, measured: str, limit: str, within: bool) -> None:
-    """One line."""
+def report(what: str, measured: str, limit: str, within: bool) -> None:
+    """Print a line: a measurement, its limit, and whether it is within."""
     print(f"{what:<58} {measured}; must be {limit}: {'yes' if within else 'NO'}", flush=True)
 
 
 def report_spectra(skin: Skin) -> None:
     """64 states x 61 wavelengths: time, error against a random walk, and the latter's time."""
     taken, table = spent(lambda: build(skin, SPECTRA, threads=CORES), REPEATS)
-    said(
+    report(
         "64 states x 61 wavelengths, solver, 2 cores",
         f"{ranged(taken.clock)} s",
         "30 s or less",
         np.median(taken.clock) <= 30.0,
     )
     error, uncertain = solver_error(skin, table)
-    said(
+    report(
         "  RMSE against the random walk, its noise taken off",
         f"{error:.2g} (at most {uncertain:.2g} with 95 %)",
         f"{ERROR:g} at most",
@@ -101,10 +99,10 @@ def report_spectra(skin: Skin) -> None:
     seconds = [by_spectrum * rays * reflectance.size for by_spectrum in passes]
     ratio = np.median(seconds) / np.median(taken.processor)
     print(
-        f"  as printed, the walk needs {rays:.3g} rays each for that RMSE: {ranged(seconds)} s of "
-        f"one core (extrapolated from {PRINTED_RAYS} rays)"
+        f"  as printed, the walk needs {rays:.3g} rays a wavelength for that RMSE: "
+        f"{ranged(seconds)} s of one core (extrapolated from {PRINTED_RAYS} rays)"
     )
-    said("  ratio of core-seconds", f"{ratio:.3g}", "400 or more", ratio >= 400.0)
+    report("  ratio of core-seconds", f"{ratio:.3g}", "400 or more", ratio >= 400.0)
 
 
 def solver_error(skin: Skin, table: SkinTable) -> tuple[float, float]:
@@ -143,7 +141,7 @@ def printed_seconds(skin: Skin, table: SkinTable, number: int) -> float:
 def report_peer(skin: Skin) -> None:
     """A table of the peer's size: 4704 states' colours, albedo against a converged solution."""
     taken, table = spent(lambda: build(skin, PEER, threads=CORES), 1)
-    said(
+    report(
         "4704 states' colours, 2 cores",
         f"{ranged(taken.clock)} s",
         "300 s or less",
@@ -151,7 +149,7 @@ def report_peer(skin: Skin) -> None:
     )
     errors = 100.0 * albedo_errors(skin, table)
     median, most = np.median(errors), np.percentile(errors, 95.0)
-    said(
+    report(
         f"  albedo, {PEER_CHECKED} of them, relative error",
         f"median {median:.2g} %, 95th percentile {most:.2g} %",
         ".1 % and .5 % at most",
@@ -177,43 +175,36 @@ def report_presets(skin: str) -> None:
     for name, (seconds, *limits) in PRESET_LIMITS.items():
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"{name}.exr"
-            arguments = ["build", "--skin", skin, "--preset", name, "--threads", str(CORES)]
-            command = [
-                sys.executable,
-                "-m",
-                "lut_builder.cli",
-                *arguments,
-                "--force",
-                "-o",
-                str(path),
-            ]
+            arguments = ["--skin", skin, "--preset", name, "--threads", str(CORES)]
+            command = [sys.executable, "-m", "lut_builder.cli", "build", *arguments]
+            command += ["--force", "-o", str(path)]
 
-            def made(command=command) -> None:
+            def build_table(command=command) -> None:
                 subprocess.run(command, check=True, capture_output=True)
 
-            taken, _ = spent(made, REPEATS if name == "preview" else 1)
+            taken, _ = spent(build_table, REPEATS if name == "preview" else 1)
             kilobytes = path.stat().st_size / 1000.0
             table = read_table(path)
-        said(
+        report(
             f"table, preset {name}, skin {skin}, program and all",
             f"{ranged(taken.clock)} s",
             f"{seconds:g} s or less",
             np.median(taken.clock) <= seconds,
         )
         apart = check(table, count=200, seed=1).differences
-        figures = f"mean {apart.mean():.3f}, largest {apart.max():.3f}"
+        errors = f"mean {apart.mean():.3f}, largest {apart.max():.3f}"
         if limits:
-            said(
+            report(
                 "  CIEDE2000 at 200 reachable states that are no knots",
-                figures,
+                errors,
                 f"{limits[0]:g} and {limits[1]:g} at most",
                 bool(apart.mean() <= limits[0] and apart.max() <= limits[1]),
             )
         else:
-            print(f"  CIEDE2000 at 200 reachable states that are no knots: {figures}")
+            print(f"  CIEDE2000 at 200 reachable states that are no knots: {errors}")
         if name == "standard":
             limit = STANDARD_KILOBYTES
-            said("  file", f"{kilobytes:.0f} KB", f"under {limit:g} KB", kilobytes < limit)
+            report("  file", f"{kilobytes:.0f} KB", f"under {limit:g} KB", kilobytes < limit)
 
 
 def main() -> None:
@@ -227,4 +218,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m examples.bench_tables", description=__doc__).parse_args()
     main()

@@ -33,20 +33,20 @@ def demo(_: argparse.Namespace) -> None:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with tempfile.TemporaryDirectory(dir=OUT, prefix=".unfinished-") as folder:
         unfinished = Path(folder)
-        what = subject()
+        person = subject()
         skin_table(unfinished / TABLE)
-        obj = scene.build(what)
+        obj = scene.build(person)
         tan(obj, unfinished / TABLE)
         render.prepare(bpy.context.scene)
         with interrupt.removing(unfinished):
             stills(unfinished)
-            readings = measured(what, obj, unfinished)
+            readings = measured(person, obj, unfinished)
             video(unfinished)
-        made = sorted(path for path in unfinished.iterdir() if path.is_file())
-        for path in made:
+        files = sorted(path for path in unfinished.iterdir() if path.is_file())
+        for path in files:
             os.replace(path, OUT / path.name)
     print(f"\nMade in {time.monotonic() - started:.0f} s, in {OUT.resolve()}:")
-    print("  " + "  ".join(path.name for path in made))
+    print("  " + "  ".join(path.name for path in files))
     print(f"\n{colours.report(readings)}")
 
 
@@ -104,23 +104,23 @@ def stills(folder: Path) -> None:
     montage.contact_sheet(paths, [f"Day {day}" for day in DAYS], folder / "contact_sheet.png")
 
 
-def measured(what: scene.Subject, obj: bpy.types.Object, folder: Path) -> list[colours.Reading]:
+def measured(person: scene.Subject, obj: bpy.types.Object, folder: Path) -> list[colours.Reading]:
     """Read the colours of the skin back from renders of the days, as with a white standard."""
     predicted = colours.predictions(read_table(folder / TABLE), DOSE, DAYS)
-    shown = bpy.context.scene
+    shot = bpy.context.scene
     readings = []
     with tempfile.TemporaryDirectory(dir=folder) as scratch:
         file = Path(scratch) / "light.exr"
         with render.white(obj):
-            overview = render.light(shown, frame_of(0), render.OVERVIEW, file)
-            patches = colours.patches(overview, what.cloth, np.array(shown.camera.location))
+            overview = render.light(shot, frame_of(0), render.OVERVIEW, file)
+            patches = colours.patches(overview, person.cloth, np.array(shot.camera.location))
             whites = [
-                render.light(shown, frame_of(0), render.READING, file, patch.window)
+                render.light(shot, frame_of(0), render.READING, file, patch.window)
                 for patch in patches
             ]
         for day, both in zip(tqdm(DAYS, "colours", unit="frame"), predicted, strict=True):
             for patch, white, prediction in zip(patches, whites, both, strict=True):
-                light = render.light(shown, frame_of(day), render.READING, file, patch.window)
+                light = render.light(shot, frame_of(day), render.READING, file, patch.window)
                 readings.append(colours.reading(day, patch, light, white, prediction))
     colours.write_csv(readings, folder / "colours.csv")
     return readings
@@ -146,6 +146,7 @@ def silence_blender() -> None:
 
 
 if __name__ == "__main__":
+    arguments = argparse.ArgumentParser("python -m examples.demo", description=__doc__).parse_args()
     silence_blender()
-    status = run(demo, argparse.Namespace())
+    status = run(demo, arguments)
     os._exit(status)  # Blender 4.5 hangs in an ordinary exit after a render.

@@ -59,7 +59,7 @@ class Reading:
 
 
 def patches(white: Light, cloth: swimsuit.Field, camera: np.ndarray) -> list[Patch]:
-    """A patch of each of `SKINS`, for a camera at (3,) and the light of a white subject.
+    """A patch of covered and one of bare skin, for a camera at (3,) and a white subject's light.
 
     The most evenly lit of all places that face the camera, are well lit and well away from the
     cloth's edge: where light is uneven, what scatters over from beside a patch changes its colour.
@@ -129,7 +129,7 @@ def predictions(table: SkinTable, dose: float, days: Sequence[float]) -> np.ndar
 
 
 def report(readings: Sequence[Reading]) -> str:
-    """A table to print, and what stands between render and model."""
+    """A table to print, and how much the shader's surface keeps out of the skin."""
     lines = [
         f"{'':15}{'read back from the render':^40}{'predicted by the model':^40}",
         f"{'day':>4} {'skin':9} {_heading()} {_heading()}  CIEDE2000",

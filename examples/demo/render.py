@@ -38,7 +38,7 @@ WHOLE = (0.0, 1.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Light:
-    """What a render knows about each pixel, arrays (rows, columns, 3).
+    """Light, position and normal of a render's pixels, arrays (rows, columns, 3).
 
     Attributes
     ----------
@@ -154,7 +154,7 @@ def one_pass(channels: dict[str, np.ndarray], names: tuple[str, ...]) -> np.ndar
 
 
 def set_file_format(scene: bpy.types.Scene, kind: str, file_format: str) -> None:
-    """Choose what a scene's renders are written as; Blender 4.5 has no kinds."""
+    """Set the file format of a scene's renders; Blender 4.5 has no kinds of media."""
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):
         settings.media_type = kind

@@ -46,7 +46,7 @@ GROUPS = (
     people,
     renders,
 )
-"""Each has FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
+"""Modules with FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
 
 
 def main() -> int:
@@ -67,7 +67,7 @@ def main() -> int:
 
 
 def figures(arguments: argparse.Namespace) -> None:
-    """Compute and draw what is asked for, and write the report."""
+    """Compute and draw the figures, and write the report."""
     require_whole("number of rays", arguments.rays, 1, 10**8)
     require_whole("seed", arguments.seed, 0, 2**32 - 1)
     groups = groups_with(arguments.names)

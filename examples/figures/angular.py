@@ -40,7 +40,7 @@ POLAR_BINS, AZIMUTH_BINS = 18, 12
 """Bins of 5 degrees and of 15 on either side of the plane of incidence."""
 
 FEW, MANY = 2, 20
-"""Rays for one ray of a curve: at each of `VISIBLE`, and at `UV` and `IR`."""
+"""Rays for one ray of a curve: at the wavelengths of `VISIBLE`, and at `UV` and `IR`."""
 
 WITHIN = 0.2
 """Part by which ratios of the BRDF in two directions may differ and still count as met."""
@@ -58,7 +58,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
 
 
 def at_one(wavelength: float, angle: float, rays: int, effort: Effort) -> Task:
-    """The task of a BRDF at one wavelength."""
+    """A task that walks a BRDF at one wavelength."""
     size = rays / RAYS_AS_LONG
 
     def work(tick: Tick) -> AngularReflectance:
@@ -79,7 +79,7 @@ def at_one(wavelength: float, angle: float, rays: int, effort: Effort) -> Task:
 
 
 def over_the_visible(angle: float, effort: Effort) -> Task:
-    """The task of a mean BRDF over the visible, every wavelength with the same weight."""
+    """A task that walks the mean BRDF over the visible, all wavelengths with one weight."""
     parts = [at_one(wavelength, angle, FEW * effort.rays, effort) for wavelength in VISIBLE]
 
     def work(tick: Tick) -> AngularReflectance:

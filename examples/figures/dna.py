@@ -17,7 +17,7 @@ WAVELENGTHS = np.arange(250.0, 401.0, 5.0)
 SKIN = SPECIMENS["S3"]
 PRINTED_DNA, PRINTED_KERATIN = 0.135, 0.068
 
-FIGURE_ENDS = 310.0
+SPECTRUM_ENDS = 310.0
 """nm above which the figure for DNA is next to nothing."""
 
 KERATIN_AS_PRINTED = 4e4 / 2.5e3
@@ -29,9 +29,9 @@ DNA_AS_PRINTED = 0.05 * 1e3
 
 @dataclass(frozen=True)
 class Absorbers:
-    """What absorbs in the UV, relative to this project's figures at table 6.2's values.
+    """What absorbs in the UV, relative to this project's spectra at table 6.2's values.
 
-    `beyond` is an absorption coefficient of the epidermis's DNA in 1/cm above `FIGURE_ENDS`.
+    `beyond` is an absorption coefficient of the epidermis's DNA in 1/cm above `SPECTRUM_ENDS`.
     """
 
     epidermis: float = 1.0
@@ -142,7 +142,7 @@ def absorbing(stack: Stack, wavelength: float, absorbers: Absorbers) -> Stack:
     """S3 without DNA and keratin, with those of `absorbers` added."""
     dna = published_spectra()["dna"].at(wavelength) * SKIN.skin_dna
     keratin = published_spectra()["keratin"].at(wavelength) * 0.01 * SKIN.corneum_keratin
-    beyond = absorbers.beyond if wavelength > FIGURE_ENDS else 0.0
+    beyond = absorbers.beyond if wavelength > SPECTRUM_ENDS else 0.0
     epidermis, dermis = absorbers.epidermis * dna + beyond, absorbers.dermis * dna
     added = (absorbers.keratin * keratin, *[epidermis] * 3, *[dermis] * 2)
     layers = zip(stack.layers, added, strict=True)

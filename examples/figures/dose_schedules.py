@@ -41,7 +41,7 @@ SEEN_EVERY = 1
 
 @dataclass(frozen=True)
 class Tan:
-    """What a schedule makes of a skin.
+    """A skin's tan over a schedule.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Tan:
     history : TanningHistory
         Every hour.
     days, lightness : (D,) arrays
-        Days at which the light model was asked, and L* under D65.
+        Days of the colours, and L* under D65.
     """
 
     schedule: Schedule
@@ -59,7 +59,7 @@ class Tan:
 
 
 def tan(skin: Skin, schedule: Schedule, days: np.ndarray, tick: Tick) -> Tan:
-    """Simulate a schedule up to the last day and ask the light model on some."""
+    """A schedule's tan to the last of the days, with the skin's lightness on those days."""
     states = history(skin, schedule, days[-1])
     lightness = np.empty(days.size)
     for number, hour in enumerate(np.round(24 * days).astype(int)):

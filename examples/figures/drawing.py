@@ -1,4 +1,4 @@
-"""What the figures share: axes, lines, bars, swatches."""
+"""Axes, curves, bars and swatches that several figures share."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""Reflectance curves for the figures, without noise or with as many rays as were asked for."""
+"""Reflectance curves for the figures, without noise or by random walk."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,21 +19,18 @@ THESIS_RAYS = 100_000
 """Rays per wavelength in the thesis (section 6.1.4)."""
 
 BATCH = 64
-"""Wavelengths between two words of progress of a curve without noise."""
+"""Wavelengths of a curve without noise between two reports of progress."""
 
 RAYS_AS_LONG = 1500
-"""Rays that walk while a wavelength is solved without noise; it only serves the time left."""
+"""Rays that walk while a wavelength is solved without noise; only the time left follows from it."""
 
 Tick = Callable[[float], object]
-"""Told how much work of what size has ended."""
+"""Called with the size of a piece of work when it has ended; see `Task`."""
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How many rays per wavelength, from which seed, on how many threads (all cores if None).
-
-    And beside which measured people, if any.
-    """
+    """Rays per wavelength, seed, threads (all cores if None), and measured people, if any."""
 
     rays: int = THESIS_RAYS
     seed: int = 1
@@ -64,9 +61,9 @@ class Curve:
 
 @dataclass(frozen=True)
 class Task:
-    """Some work, given what to tell of its progress, and its size.
+    """A function that computes something and reports its progress, and its size.
 
-    The unit is what a curve without noise takes for one wavelength.
+    The unit of size is the time of one wavelength of a curve without noise.
     """
 
     work: Callable[[Tick], object]
@@ -74,7 +71,7 @@ class Task:
 
 
 def noisy(reflectance: np.ndarray, rays: int, seed: int) -> np.ndarray:
-    """What so many rays per wavelength would give: each returns or does not."""
+    """Reflectance as so many rays per wavelength would measure it: a ray returns or does not."""
     returned = np.random.default_rng(seed).binomial(rays, np.clip(reflectance, 0.0, 1.0))
     return returned / rays
 
@@ -96,7 +93,7 @@ def noise_free(
     angle: float,
     readings: Mapping[str, str] | None = None,
 ) -> Task:
-    """The task of a curve without noise, with other readings of the thesis where given."""
+    """A task that computes a curve without noise, with other readings of the thesis where given."""
     grid, model = np.asarray(wavelengths, dtype=float), Model(readings=readings or {})
 
     def work(tick: Tick) -> Curve:
@@ -117,7 +114,7 @@ def walked(
     angle: float,
     effort: Effort,
 ) -> Task:
-    """The task of a curve by random walk."""
+    """A task that computes a curve by random walk."""
     grid = np.asarray(wavelengths, dtype=float)
 
     def work(tick: Tick) -> Curve:

@@ -62,7 +62,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
 
 
 def work_size(effort: Effort) -> float:
-    """How much work all wavelengths are at so many rays each."""
+    """Size of the work of all wavelengths at so many rays per wavelength."""
     return WAVELENGTHS.size * effort.rays / RAYS_AS_LONG
 
 
@@ -86,7 +86,7 @@ def walked_dj06(effort: Effort, tick: Tick) -> Curve:
 
 
 def walked_biospec(effort: Effort, tick: Tick) -> Curve:
-    """BioSpec."""
+    """BioSpec's reflectance, by its own random walk."""
     reflectance = np.empty(WAVELENGTHS.size)
     for place, wavelength in enumerate(WAVELENGTHS):
         reflectance[place] = biospec.reflectance(
@@ -114,7 +114,7 @@ def draw(results: Mapping[str, object], folder: Path) -> list[Row]:
 
 
 def draw_curves(curves: Mapping[str, Curve], people: People | None, path: Path) -> None:
-    """Figure 6.2."""
+    """Figure 6.2: curves of the earlier models and HyLIoS."""
     figure, axes = sheet(12.0, 4.8, columns=2, sharey=True)
     shown = (
         {

@@ -62,7 +62,7 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
 
 
 def schedules(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.24."""
+    """Panels of figure 6.24, and rows: is the skin darker under the stronger schedule?"""
     ordered = sorted(results, key=lambda result: result.shot.day)
     panels = [
         Panel(
@@ -92,7 +92,7 @@ def schedules(results: Sequence[Result]) -> tuple[Panels, Rows]:
 
 
 def plain(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.25."""
+    """Panels of figure 6.25, and rows: do darker skins tan less of the same doses?"""
     panels, contrasts = _three_skins(results)
     weakest = contrasts["high"][0]
     less = all(
@@ -125,7 +125,7 @@ def plain(results: Sequence[Result]) -> tuple[Panels, Rows]:
 
 
 def matched(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.26."""
+    """Panels of figure 6.26, and rows: do they tan more of scaled doses?"""
     panels, contrasts = _three_skins(results)
     more = all(
         np.all(np.diff([contrasts[name][part] for name in shots.SENSITIVITY]) > 0.0)
@@ -160,7 +160,7 @@ def _contrasts(contrasts: Mapping[str, np.ndarray]) -> str:
 
 
 def strong(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.27."""
+    """Panels of figure 6.27, and rows: how dark is the strong tan on days 4 and 15?"""
     panels = [
         Panel(result.picture, "day 0, sunscreen on (outlined)", outlined=result.sun_distance)
         if result.shot.gloss
@@ -198,7 +198,7 @@ def _filling() -> report.Row:
 
 
 def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.28."""
+    """Panels of figure 6.28, and rows: gloss of sunscreen, and the tan line at 365 nm."""
     seen = {result.shot.day: result for result in results if result.shot.table != UV}
     uv = {result.shot.day: result for result in results if result.shot.table == UV}
     before, after = shots.FACE_DAYS
@@ -259,7 +259,7 @@ def _luminance(linear: np.ndarray) -> np.ndarray:
 
 
 def month(results: Sequence[Result]) -> tuple[Panels, Rows]:
-    """Figure 6.29."""
+    """Panels of figure 6.29, and rows: rise, peak and fading over the month."""
     daily = [result for result in results if "small" in result.shot.name]
     main = [result for result in results if "small" not in result.shot.name]
     small = [Panel(result.picture, f"day {result.shot.day:g}") for result in daily]

@@ -58,7 +58,7 @@ class Result:
 
 
 def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
-    """What came of a shot, beside what the model says."""
+    """What was read from a shot, with what the table and the model predict."""
     states = tanning_states(shot, skin)
     with np.load(folder / f"{shot.name}.npz") as file:
         return Result(
@@ -66,7 +66,7 @@ def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
             picture=file["picture"],
             readings=file["readings"],
             predicted=table.plane("subsurface_colour", states),
-            exact=None if shot.table == UV else np.array([colour(skin, s) for s in states]),
+            exact=None if shot.table == UV else np.array([model_colour(skin, s) for s in states]),
             shine=file["shine"],
             sun_distance=file["sun_distance"],
             subject=str(file["subject"]),
@@ -80,6 +80,6 @@ def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:
     return np.array([skin.states(exposures_of(schedule), hours)[0] for schedule in schedules])
 
 
-def colour(skin: Skin, state: np.ndarray) -> np.ndarray:
+def model_colour(skin: Skin, state: np.ndarray) -> np.ndarray:
     """Colour (3,) of the light out of skin in a tanning state (4,), without noise."""
     return colours(skin, state[None], count=MOST).subsurface[0]

@@ -45,7 +45,7 @@ SETTINGS = Settings(knots=(9, 3, 2), profile_error=0.02, bands=())
 """Of the tables: coarser than the standard preset."""
 
 TABLE_AS_LONG = 4000
-"""Wavelengths without noise that take as long as a table; it only serves the time left."""
+"""Wavelengths without noise that take as long as a table; only the time left follows from it."""
 
 UV_NM, UV_RAYS = 365.0, 100_000
 
@@ -70,7 +70,7 @@ def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
 
 
 PICTURE_AS_LONG = 2000
-"""Wavelengths without noise that take as long as a picture; it only serves the time left."""
+"""Wavelengths without noise that take as long as a picture; only the time left follows from it."""
 
 
 def tasks(effort: Effort) -> dict[str, Task]:

@@ -1,4 +1,4 @@
-"""What the thesis prints beside what this project finds, line by line."""
+"""The report: what the thesis prints beside this project's results, a row for every statement."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

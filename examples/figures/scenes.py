@@ -92,7 +92,7 @@ def take(shot: Shot, quality: render.Quality, scratch: Path) -> Taken:
 def shoot(
     wanted: Sequence[Shot], by_name: Mapping[str, Stage], folder: Path, scale: float, samples: int
 ) -> Iterator[str]:
-    """Render shots into FOLDER/NAME.npz, and give each name once its file is there."""
+    """Render shots into FOLDER/NAME.npz; yields a shot's name once its file is there."""
     scratch = folder / "scratch.exr"
     standing, obj = None, None
     whites: dict[tuple, render.Light] = {}
@@ -129,7 +129,7 @@ def shoot(
 
 
 def main(arguments: argparse.Namespace) -> None:
-    """Render what is asked for, and print the name of each shot when it is done."""
+    """Render the shots named, and print a shot's name when it is done."""
     by_name = stages(None if arguments.stand_in else body_wheel())
     blender_addon.register()
     wanted = shots.named(arguments.names)
@@ -147,7 +147,7 @@ def body_wheel() -> Path | None:
 
 
 def arguments() -> argparse.ArgumentParser:
-    """What the command understands."""
+    """The command's parser."""
     parser = argparse.ArgumentParser(prog="python -m examples.figures.scenes", description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("names", nargs="+")

@@ -9,7 +9,14 @@ import numpy as np
 
 from examples.demo import render, scene, swimsuit
 from examples.demo.body import EYES_CLOSED, read_body
-from examples.figures.sun_fields import Place, half, nearest_patch, patches_at, sunscreen_at, whole
+from examples.figures.sun_fields import (
+    Placement,
+    half,
+    nearest_patch,
+    patches_at,
+    sunscreen_at,
+    whole,
+)
 
 CAP_COLOUR = (0.010, 0.022, 0.050, 1.0)
 CAP_THICKNESS = 0.0022
@@ -58,7 +65,7 @@ def stages(wheel: Path | None) -> dict[str, Stage]:
 def _with_body(wheel: Path) -> dict[str, Stage]:
     body = read_body(wheel)
     resting = read_body(wheel, EYES_CLOSED)
-    squares, sun = Place((0.055, 0.0, 1.195)), Place((0.0, 0.0, 1.215))
+    squares, sun = Placement((0.055, 0.0, 1.195)), Placement((0.0, 0.0, 1.215))
 
     def part(points: np.ndarray) -> np.ndarray:
         return nearest_patch(squares.local(points)[1])
@@ -104,7 +111,7 @@ def _with_body(wheel: Path) -> dict[str, Stage]:
 
 
 def _with_suzanne() -> dict[str, Stage]:
-    squares, sun = Place((0.042, 0.0, 0.045), 0.55), Place((0.0, 0.0, 0.04), 0.7)
+    squares, sun = Placement((0.042, 0.0, 0.045), 0.55), Placement((0.0, 0.0, 0.04), 0.7)
     monkey = scene.suzanne()
 
     def part(points: np.ndarray) -> np.ndarray:

@@ -39,45 +39,48 @@ def sun_sign(across: np.ndarray, up: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where on a subject a figure is drawn, and how large; `facing` is the sign of y there."""
+class Placement:
+    """Where on a subject a pattern lies, and how large; `facing` is the sign of y there."""
 
     origin: tuple[float, float, float]
     scale: float = 1.0
     facing: float = 1.0
 
     def local(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Points (N, 3) as metres to the right and up from the place, in the figure's own size."""
+        """Points (N, 3) in metres to the right and up from the origin, in the pattern's size."""
         across, _, up = (points - np.array(self.origin)).T / self.scale
         return across, up
 
     def on_this_side(self, points: np.ndarray) -> np.ndarray:
-        """Positive (N,) on the side of the subject that the figure is on."""
+        """Positive (N,) on the side of the subject that the pattern is on."""
         return self.facing * (points[:, 1] - self.origin[1])
 
 
-def patches_at(place: Place) -> swimsuit.Field:
-    """Sun in three patches only."""
+def patches_at(placement: Placement) -> swimsuit.Field:
+    """The sun reaches three patches only."""
 
     def field(points: np.ndarray) -> np.ndarray:
         return np.minimum(
-            place.scale * square_patches(*place.local(points)), place.on_this_side(points)
+            placement.scale * square_patches(*placement.local(points)),
+            placement.on_this_side(points),
         )
 
     return field
 
 
-def sunscreen_at(place: Place) -> swimsuit.Field:
-    """Sun everywhere but on a sun painted with sunscreen."""
+def sunscreen_at(placement: Placement) -> swimsuit.Field:
+    """The sun reaches all but a sun painted with sunscreen."""
 
     def field(points: np.ndarray) -> np.ndarray:
-        return np.maximum(place.scale * sun_sign(*place.local(points)), -place.on_this_side(points))
+        return np.maximum(
+            placement.scale * sun_sign(*placement.local(points)), -placement.on_this_side(points)
+        )
 
     return field
 
 
 def half(points: np.ndarray) -> np.ndarray:
-    """Sun on the side of positive x only."""
+    """The sun reaches the side of positive x only."""
     return points[:, 0]
 
 

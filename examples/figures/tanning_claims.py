@@ -112,7 +112,7 @@ class Gain:
 
 
 def gain(skin: Skin, doses: Sequence[float], tick: Tick) -> Gain:
-    """What each of some single doses gives a skin at its peak."""
+    """Gain of a skin at the peak of its tan after single doses in SED."""
     states = single_doses(skin, doses, PEAK_DAYS)
     peaks = states.total.argmax(axis=-1)
     before = colour(skin, skin.untanned_state)

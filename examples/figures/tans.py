@@ -74,7 +74,7 @@ SKINS = {
 """S3, S4 and one between, for the intermediate set. ASSUMED: the thesis names no such specimen."""
 
 COLOUR_WAVELENGTHS = 8
-"""At which the light model is asked for a colour: within .03 in L* of a spectrum every 10 nm."""
+"""Number of wavelengths of a colour: within .03 in L* of a spectrum every 10 nm."""
 
 
 def exposures_of(schedule: Schedule) -> Exposures:
@@ -94,7 +94,7 @@ def rise(states: TanningHistory) -> float:
 
 
 def single_doses(skin: Skin, doses: Sequence[float], days: float) -> TanningHistory:
-    """States after one dose on day 0, for each of some doses in SED; shapes (D, T, ...)."""
+    """States after one dose on day 0, over doses (D,) in SED; shapes (D, T, ...)."""
     exposures = Exposures(np.array([0]), np.array(doses, dtype=float)[:, None])
     return skin.history(exposures, round(24 * days))
 

@@ -5,7 +5,6 @@ Writes docs/simplifications.md; minutes of work.
 
 import argparse
 import datetime
-import os
 import sys
 import time
 from pathlib import Path
@@ -19,6 +18,7 @@ from examples.simplifications.light import stacks, walk_seconds
 from examples.simplifications.measures import Case, Effort, Row
 from examples.simplifications.quadrature import gauss
 from hylios.commands.shell import run
+from hylios.files import written_beside
 from hylios.quadrature import skin_quadrature
 from hylios.skin.specimen import SPECIMENS
 from hylios.transport.simulate import Spectrum, spectrum
@@ -93,7 +93,9 @@ def measure(_: argparse.Namespace) -> None:
         )
         bar.update(steps - bar.n)
     text = report.markdown(findings, datetime.date.today(), time.process_time() - worked)
-    write(text, DOCUMENT)
+    DOCUMENT.parent.mkdir(exist_ok=True)
+    with written_beside(DOCUMENT) as beside:
+        beside.write_text(text, encoding="utf-8")
     print(f"wrote {DOCUMENT} in {time.monotonic() - started:.0f} s")
 
 
@@ -140,13 +142,12 @@ def render() -> float | None:
     return time_with_subsurface()
 
 
-def write(text: str, path: Path) -> None:
-    """Write a file beside its place, then move it there."""
-    path.parent.mkdir(exist_ok=True)
-    unfinished = path.with_suffix(".unfinished")
-    unfinished.write_text(text, encoding="utf-8")
-    os.replace(unfinished, path)
-
-
 if __name__ == "__main__":
-    sys.exit(run(measure, argparse.ArgumentParser(description=__doc__).parse_args()))
+    sys.exit(
+        run(
+            measure,
+            argparse.ArgumentParser(
+                "python -m examples.simplifications", description=__doc__
+            ).parse_args(),
+        )
+    )

@@ -14,7 +14,7 @@ from hylios.transport.melanosome_paths import with_survival
 from hylios.transport.simulate import count
 
 GRID = np.arange(360.0, 781.0, 5.0)
-"""Where the eye sees, in nm; the figures of what absorbs in skin are no finer."""
+"""Where the eye sees, in nm; spectra of what absorbs in skin are no finer."""
 
 ANGLE = 8.0
 SEED = 1

@@ -33,7 +33,7 @@ DRAWS = 20
 """Of a simulation's chance, per skin."""
 
 Progress = Callable[[], object]
-"""Told as each piece of work ends."""
+"""Called when a piece of work has ended."""
 
 
 @dataclass(frozen=True)

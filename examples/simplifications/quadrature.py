@@ -3,8 +3,8 @@
 A minute's work, the same every time; writes hylios/quadrature.csv.
 """
 
+import argparse
 import csv
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -15,11 +15,12 @@ import hylios
 from examples.simplifications.light import GRID, metrics, reflectances
 from examples.simplifications.skins import random_skins
 from examples.simplifications.variants import whole
+from hylios.files import written_beside
 from hylios.lab import colour
 from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Colours, Quadrature, choose
 
 FIRST, LAST = 400.0, 700.0
-"""Of the wavelengths to choose from: beyond, the eye sees little and the figures are guesses."""
+"""Of the wavelengths to choose from: beyond, the eye sees little and spectra are guesses."""
 
 SKINS = 300
 
@@ -50,8 +51,7 @@ def gauss(count: int) -> Quadrature:
 
 def write(quadratures: Sequence[Quadrature], path: Path) -> None:
     """Write quadratures as CSV."""
-    unfinished = path.with_suffix(".unfinished")
-    with unfinished.open("w", newline="", encoding="utf-8") as file:
+    with written_beside(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for quadrature in quadratures:
@@ -60,17 +60,19 @@ def write(quadratures: Sequence[Quadrature], path: Path) -> None:
             ):
                 numbers = [f"{weight:.9f}" for weight in weights]
                 writer.writerow([quadrature.wavelengths.size, f"{wavelength:g}", *numbers])
-    os.replace(unfinished, path)
 
 
 def main() -> None:
     """Choose and write."""
     allowed = (GRID >= FIRST) & (GRID <= LAST)
-    made = choose(skin_colours(), MOST, allowed=allowed)
+    quadratures = choose(skin_colours(), MOST, allowed=allowed)
     path = Path(hylios.__file__).parent / TABLE
-    write(made[FEWEST - 1 :], path)
+    write(quadratures[FEWEST - 1 :], path)
     print(f"wrote {path}")
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(
+        "python -m examples.simplifications.quadrature", description=__doc__
+    ).parse_args()
     main()

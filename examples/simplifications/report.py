@@ -1,4 +1,4 @@
-"""The document of the measurements."""
+"""Writes docs/simplifications.md from the measurements."""
 
 import datetime
 import platform

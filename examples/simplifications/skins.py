@@ -1,4 +1,4 @@
-"""Skins to measure on, and others to choose wavelengths by."""
+"""Skins on which simplifications are measured, and random ones that wavelengths are fitted to."""
 
 from dataclasses import replace
 

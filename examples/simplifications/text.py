@@ -1,4 +1,4 @@
-"""What the document says around its tables."""
+"""The text of docs/simplifications.md around its tables."""
 
 INTRODUCTION = """
 # Which part of the light model a scene needs

@@ -78,7 +78,7 @@ def test_the_skins_are_those_of_the_captions():
 def test_the_skin_between_is_darker_than_the_light_and_lighter_than_the_dark():
     untanned = np.array([*PIGMENTATIONS["low"].steady_state(), 1.0])
     skins = [shots.skins()[name] for name in ("low", "intermediate", "high")]
-    low, between, high = (lab(render_results.colour(skin, untanned))[0] for skin in skins)
+    low, between, high = (lab(render_results.model_colour(skin, untanned))[0] for skin in skins)
     assert high + 10.0 < between < low - 5.0
 
 
@@ -115,10 +115,10 @@ def test_the_painted_sun_has_a_disk_and_twelve_rays():
 
 
 def test_sun_and_shade_stay_on_their_side_of_the_body():
-    place = sun_fields.Place((0.0, 0.0, 1.2))
+    placement = sun_fields.Placement((0.0, 0.0, 1.2))
     points = np.array([[0.0, 0.1, 1.2], [0.0, -0.1, 1.2]])
-    assert list(sun_fields.patches_at(place)(points) > 0) == [True, False]
-    assert list(sun_fields.sunscreen_at(place)(points) > 0) == [False, True]
+    assert list(sun_fields.patches_at(placement)(points) > 0) == [True, False]
+    assert list(sun_fields.sunscreen_at(placement)(points) > 0) == [False, True]
 
 
 CAMERA = np.array([0.0, 1.0, 0.0])

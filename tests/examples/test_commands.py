@@ -1,0 +1,18 @@
+"""Examples as commands: help is printed, and nothing is measured or rendered for it."""
+
+import subprocess
+import sys
+
+import pytest
+
+COMMANDS = ("bench", "demo", "simplifications", "simplifications.quadrature")
+"""Those without a parser of options that their other tests use."""
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_is_printed_at_once(command):
+    ended = subprocess.run(
+        [sys.executable, "-m", f"examples.{command}", "--help"], capture_output=True, text=True
+    )
+    assert (ended.returncode, ended.stderr) == (0, "")
+    assert ended.stdout.startswith("usage: ") and "examples" in ended.stdout

@@ -1,5 +1,7 @@
 """States at any times, in steps of any length, of many histories at once."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,6 @@ from hylios.tanning import (
     simulation,
     states_at,
 )
-from hylios.tanning.recurrence import no_steps
 
 MELANIN_ERROR = {2: 0.002, 3: 0.0033, 6: 0.011, 12: 0.032, 24: 0.09}
 TOTAL_ERROR = {2: 0.001, 3: 0.0014, 6: 0.0046, 12: 0.015, 24: 0.052}
@@ -34,20 +35,23 @@ def test_states_at_any_times():
     assert nothing.shape == (2, 0, 4)
 
 
-def test_nothing_is_simulated_past_the_last_time(monkeypatch):
-    simulated = []
+def most_memory(exposures, times):
+    """States at times, and the most bytes that they took while they were computed."""
+    tracemalloc.start()
+    try:
+        states = states_at(exposures, PIGMENTATIONS["low"], times=times, mmd=2.89, med=1.7)
+        return states, tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
 
-    def recorded(steps, histories):
-        simulated.append(steps)
-        return no_steps(steps, histories)
 
-    monkeypatch.setattr(simulation, "no_steps", recorded)
-    late = Exposures([0, 800_000], [10.0, 10.0])
-    states = states_at(late, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
-    assert max(simulated) == 49  # hours 0 to 48
-    early = Exposures([0], [10.0])
-    expected = states_at(early, PIGMENTATIONS["low"], times=[5.5, 47.5], mmd=2.89, med=1.7)
-    assert np.array_equal(states, expected)
+def test_nothing_is_simulated_past_the_last_time():
+    """An exposure in 91 years costs no memory, and changes nothing by day 2."""
+    times = [5.5, 47.5]
+    early, usual = most_memory(Exposures([0], [10.0]), times)
+    late, peak = most_memory(Exposures([0, 800_000], [10.0, 10.0]), times)
+    assert np.array_equal(late, early)
+    assert peak < usual + 10_000
 
 
 @pytest.mark.parametrize("step", list(MELANIN_ERROR))

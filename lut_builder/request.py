@@ -33,7 +33,7 @@ state; about, on one core. Paths take a third in light skin and four times as mu
 
 @dataclass(frozen=True)
 class Request:
-    """What a table is asked to be.
+    """What a table is to be.
 
     Attributes
     ----------

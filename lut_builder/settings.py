@@ -18,7 +18,7 @@ BANDS_NM = (365.0, 1100.0, 1650.0)
 MOST_KNOTS, MOST_AXES, MOST_STATES = 100, 4, 20_000
 MOST_BANDS = 100
 FIRST_NM, LAST_NM = 250.0, 2500.0
-"""Of the spectral figures."""
+"""Of the spectra of what absorbs in skin."""
 
 FEWEST_NODES, MOST_NODES = 6, 200
 LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR = 5e-4, 0.1
@@ -52,7 +52,7 @@ class Settings:
     Raises
     ------
     InputError
-        If a value is out of range, or nothing is asked for.
+        If a value is out of range, or the table would hold nothing.
     """
 
     knots: tuple[int, ...]

@@ -2,7 +2,7 @@
 
 Only a unit's results come back, as bytes; keeping them is the caller's, as with local processes.
 The workers need this project and its libraries in the same versions, or their results would not
-be the same bytes: each is asked for the digest of its software. The scheduler needs Dask alone.
+be the same bytes: each has to give the digest of its software. The scheduler needs Dask alone.
 
 Dask trusts whoever it talks to: this process unpickles what the scheduler sends, and the workers
 whatever comes to them. Give the address of none but a scheduler of your own, in a network of your

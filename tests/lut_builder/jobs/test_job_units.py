@@ -156,7 +156,7 @@ def test_mappings_that_cannot_be_changed_have_a_digest():
 
 
 def test_a_changed_source_changes_the_digest_of_the_software(tmp_path):
-    """A copy of the sources, in which one line of a figure's file is added."""
+    """A copy of the sources, in which one line is added to a file of sources."""
     root = Path(hylios.__file__).parent.parent
     for package in ("hylios", "lut_builder"):
         for path in (root / package).rglob("*"):

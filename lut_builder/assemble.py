@@ -136,7 +136,11 @@ def _nearest_computed(needed: np.ndarray) -> np.ndarray:
 def _reflectance_planes(
     settings: Settings, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
-    """Colours and bands, (states, components)."""
+    """Colours and bands, (states, components).
+
+    A colour beyond what Rec.709 can show, as of skin full of carotene, has 0 in the channel that
+    would be negative.
+    """
     colours = sorted((piece for piece in parts if piece.kind == "colours"), key=lambda p: p.first)
     piece_results = [results[piece.name] for piece in colours]
     subsurface = np.concatenate([piece["subsurface"] for piece in piece_results])
@@ -146,8 +150,8 @@ def _reflectance_planes(
     if count:
         weights = skin_quadrature(count).weights
         error = SOLVER_ERROR * np.abs(weights).sum(axis=1)
-        planes["subsurface_colour"] = subsurface[:, :count] @ weights.T
-        planes["total_colour"] = total[:, :count] @ weights.T
+        planes["subsurface_colour"] = np.maximum(subsurface[:, :count] @ weights.T, 0.0)
+        planes["total_colour"] = np.maximum(total[:, :count] @ weights.T, 0.0)
         planes["colour_error"] = np.tile(error, (len(total), 1))
     if settings.bands:
         planes["band_reflectance"] = total[:, count:]

@@ -159,3 +159,11 @@ def test_a_header_spells_out_how_its_skin_tans(small):
     named = {key: value for key, value in small.provenance.items() if key != "melanin_dynamics"}
     assert skin_of(named) == skin_of(small.provenance)
     assert melanin_dynamics({"pigmentation": "high"}) == PIGMENTATIONS["high"]
+
+
+def test_a_colour_beyond_rec709_has_no_negative_channel():
+    """Skin full of carotene absorbs so much blue that the blue of its inner light would be -.01."""
+    yellow = replace(SPECIMENS["S1"], epidermis_beta_carotene=10.0)
+    table = from_stored(to_stored(build(Skin.of(yellow), replace(COLOURS, colour_wavelengths=8))))
+    assert table.planes["subsurface_colour"][..., 2].min() == 0.0
+    assert table.planes["subsurface_colour"][..., :2].min() > 0.05

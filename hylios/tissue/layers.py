@@ -5,7 +5,7 @@ other pile of plane layers. Lengths in cm, coefficients in 1/cm.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -120,18 +120,18 @@ class Stack:
 def _layer(
     specimen: Specimen, part: str, wavelength: float, model: Model, absorption: float
 ) -> Layer:
-    layer = Layer(
+    scatterers = {}
+    if part in EPIDERMIS:
+        scatterers = vars(melanosomes(specimen, part, wavelength, model, absorption))
+    elif part == "papillary":
+        denominator = model.readings["rayleigh_denominator"]
+        scatterers = {"rayleigh": rayleigh_coefficient(wavelength, denominator)}
+    return Layer(
         thickness=getattr(specimen, f"{part}_thickness"),
         refractive_index=refractive_index(specimen, part, wavelength, model),
         absorption=absorption,
+        **scatterers,
     )
-    if part in EPIDERMIS:
-        inside = melanosomes(specimen, part, wavelength, model, absorption)
-        return replace(layer, **asdict(inside))
-    if part == "papillary":
-        denominator = model.readings["rayleigh_denominator"]
-        return replace(layer, rayleigh=rayleigh_coefficient(wavelength, denominator))
-    return layer
 
 
 def refractive_index(specimen: Specimen, part: str, wavelength: float, model: Model) -> float:

@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -63,8 +63,14 @@ def _in_options(sentence: str) -> str:
 def print_table(columns: Mapping[str, np.ndarray], digits: int = 9) -> None:
     """Print columns of equal length as CSV with a header."""
     print(",".join(columns))
-    for row in zip(*columns.values(), strict=True):
-        print(",".join(f"{value:.{digits}g}" for value in row))
+    print_rows(columns.values(), digits)
+
+
+def print_rows(columns: Iterable[np.ndarray], digits: int = 9) -> None:
+    """Print the rows of columns of equal length as CSV."""
+    values = [column.tolist() for column in columns]
+    row = ",".join([f"%.{digits}g"] * len(values)) + "\n"
+    sys.stdout.writelines(row % cells for cells in zip(*values, strict=True))
 
 
 def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) -> None:

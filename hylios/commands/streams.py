@@ -2,8 +2,13 @@
 
 import os
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from hylios.errors import InputError
+
+SHORT = 2.0
+"""Seconds of work that nobody needs to be told of."""
 
 
 def prepare_streams() -> None:
@@ -28,6 +33,29 @@ def prepare_streams() -> None:
     if sys.stdout is None:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")
         raise InputError("standard output is closed; there is nowhere to print to.")
+
+
+@contextmanager
+def progress(what: str, total: int | None, unit: str) -> Iterator[Callable[[int], object]]:
+    """A bar on standard error for work that takes longer than `SHORT` seconds.
+
+    Parameters
+    ----------
+    total : int or None
+        Of its steps; None where that is not known.
+    unit : str
+        What is counted.
+
+    Returns
+    -------
+    function of int
+        To be told how many steps more are done.
+    """
+    from tqdm import tqdm  # the start of every command would wait for it
+
+    seconds = 0.5 if sys.stderr.isatty() else 10.0  # in a log each is a line
+    with tqdm(total=total, desc=what, unit=unit, delay=SHORT, mininterval=seconds) as bar:
+        yield bar.update
 
 
 def discard_output() -> None:

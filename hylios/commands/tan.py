@@ -1,6 +1,7 @@
 """`hylios tan`: melanin and thickness over time after doses of ultraviolet, as CSV."""
 
 import argparse
+from itertools import chain
 
 from hylios.commands.dose_arguments import (
     add_chosen_arguments,
@@ -8,7 +9,11 @@ from hylios.commands.dose_arguments import (
     chosen,
     chosen_doses,
 )
-from hylios.commands.shell import print_table
+from hylios.commands.shell import number, print_rows
+from hylios.commands.streams import progress
+from hylios.tanning import simulate_in_parts
+
+COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
 
 
 def add_to(commands) -> None:
@@ -20,20 +25,37 @@ def add_to(commands) -> None:
     parser.add_argument("--hours", type=int, default=720, help="last hour (720)")
     parser.add_argument(
         "--step",
-        type=float,
-        default=1.0,
-        help="hours from line to line: 1 to 24, or 1 divided by a whole number (1)",
+        default="1",
+        help="hours from row to row: 1 to 24, or a part of one such as 1/60 (1)",
     )
 
 
-def run(asked: argparse.Namespace) -> None:
-    """Simulate and print."""
-    of = chosen(asked)
-    history = of.skin.history(
-        chosen_doses(asked, of).exposures(),
-        asked.hours,
-        step=int(asked.step) if asked.step >= 1.0 and asked.step.is_integer() else asked.step,
+def run(arguments: argparse.Namespace) -> None:
+    """Simulate and print, a part after the other: a century by minutes has 53 million rows."""
+    of = chosen(arguments)
+    step = _step(arguments.step)
+    parts = simulate_in_parts(
+        chosen_doses(arguments, of).exposures(),
+        of.skin.dynamics,
+        mmd=of.skin.mmd,
+        med=of.skin.med,
+        hours=arguments.hours,
+        step=step,
     )
-    names = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
-    columns = (history.hours, *history.melanin.T, history.total, history.thickness)
-    print_table(dict(zip(names, columns, strict=True)), digits=10)
+    first = next(parts)
+    print(",".join(COLUMNS))
+    with progress("tan", int(arguments.hours / step) + 1, " rows") as advance:
+        for part in chain([first], parts):
+            columns = (part.hours, *part.melanin.T, part.total, part.thickness)
+            print_rows(columns, digits=10)
+            advance(part.hours.size)
+
+
+def _step(text: str) -> float:
+    """Hours of a text such as 6, 0.5 or 1/60."""
+    over, separator, under = text.partition("/")
+    step = number(over, "step")
+    if separator:
+        divisor = number(under, "step")
+        step = step / divisor if divisor else float("nan")
+    return int(step) if step >= 1.0 and step.is_integer() else step

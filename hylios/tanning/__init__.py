@@ -14,7 +14,13 @@ from hylios.tanning.dynamics import (
     minimal_melanogenesis_dose,
 )
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
-from hylios.tanning.simulation import TanningHistory, hill, simulate, states_at
+from hylios.tanning.simulation import (
+    TanningHistory,
+    hill,
+    simulate,
+    simulate_in_parts,
+    states_at,
+)
 
 __all__ = [
     "LARGEST_DOSE",
@@ -29,5 +35,6 @@ __all__ = [
     "minimal_erythema_dose",
     "minimal_melanogenesis_dose",
     "simulate",
+    "simulate_in_parts",
     "states_at",
 ]

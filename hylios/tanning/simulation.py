@@ -4,6 +4,7 @@ Everything is computed as a departure from the state without sun, which is exact
 dose acts. Arrays inside are (BLOCK, blocks, histories), as `recurrence` lays time out.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from numbers import Real
 
@@ -99,7 +100,7 @@ def simulate(
     """
     hours = require_whole("number of hours", hours, 0, LONGEST_HOURS)
     _check_step(step)
-    times = step * np.arange(int(hours / step + 1e-9) + 1)
+    times = step * np.arange(_count(hours, step))
     states = states_at(
         exposures,
         melanin,
@@ -163,45 +164,118 @@ def states_at(
     step = require_whole("step in hours", step, 1, LONGEST_STEP)
     hours = _checked_times(times)
     thickness = thickness or ThicknessDynamics()
-    departures = _departures(exposures, melanin, thickness, hours, mmd, med, step)
-    # What is left of a layer's melanin may round to less than none.
-    without_sun = np.append(melanin.steady_state(), thickness.steady_state())
-    states = np.maximum(departures + without_sun, 0.0, out=departures)
-    states /= np.append(np.full(3, without_sun[:3].sum()), without_sun[3])
+    marks = _marks(hours, step)
+    states = np.empty((int(np.prod(exposures.doses.shape[:-1])), hours.size, 4))
+    together = max(CELLS_TOGETHER // (1 + marks * step), 1)
+    for first in range(0, len(states), together):
+        some = slice(first, first + together)
+        curves = _curves(exposures, some, melanin, thickness, mmd, med, marks, step)
+        states[some] = _between(curves, hours, marks, step)
+    _make_relative(states, melanin, thickness)
     return states.reshape(*exposures.doses.shape[:-1], hours.size, 4)
 
 
-def _departures(
+def simulate_in_parts(
     exposures: Exposures,
     melanin: MelaninDynamics,
-    thickness: ThicknessDynamics,
-    times: np.ndarray,
+    *,
     mmd: float,
     med: float,
+    hours: int,
+    thickness: ThicknessDynamics | None = None,
+    step: float = 1,
+    rows: int = 2**14,
+) -> Iterator[TanningHistory]:
+    """What `simulate` gives, a part of so many rows after the other, to the last bit.
+
+    Memory is needed by the hour and by the part, however fine the step.
+
+    Parameters
+    ----------
+    exposures : Exposures
+        Of one history: doses (E,).
+    rows : int
+        Of a part, 1 or more; the last has fewer.
+    melanin, mmd, med, hours, thickness, step
+        As in `simulate`.
+
+    Raises
+    ------
+    InputError
+        As `simulate`, at the first part.
+    """
+    hours = require_whole("number of hours", hours, 0, LONGEST_HOURS)
+    _check_step(step)
+    require_range("MMD", mmd, 1e-6, 1e6, "SED")
+    require_range("MED", med, 1e-6, 1e6, "SED")
+    thickness = thickness or ThicknessDynamics()
+    count, whole = _count(hours, step), max(int(step), 1)
+    marks = _marks(step * np.array([count - 1]), whole)
+    curves = _curves(exposures, slice(None), melanin, thickness, mmd, med, marks, whole)
+    for first in range(0, count, rows):
+        times = step * np.arange(first, min(first + rows, count))
+        states = _between(curves, times, marks, whole)
+        _make_relative(states, melanin, thickness)
+        states = states.reshape(*exposures.doses.shape[:-1], times.size, 4)
+        yield TanningHistory(hours=times, melanin=states[..., :3], thickness=states[..., 3])
+
+
+def _count(hours: int, step: float) -> int:
+    """Of the steps from hour 0 to the last, both among them."""
+    return int(hours / step + 1e-9) + 1
+
+
+def _marks(times: np.ndarray, step: int) -> int:
+    """Steps that are simulated for some times."""
+    return int(np.ceil(times.max(initial=0.0) / step))
+
+
+def _curves(
+    exposures: Exposures,
+    some: slice,
+    melanin: MelaninDynamics,
+    thickness: ThicknessDynamics,
+    mmd: float,
+    med: float,
+    marks: int,
     step: int,
+) -> tuple[np.ndarray, ...]:
+    """Melanin of the layers and thickness beyond those without sun at the steps' ends.
+
+    Of some histories, laid out in blocks, in 5.12's units.
+    """
+    hours = 1 + marks * step
+    received = _by_hour(exposures.hours, exposures.doses, some, hours)
+    thickening = _by_hour(exposures.hours, exposures.thickening_doses, some, hours)
+    return (
+        *_melanin(_response(received / mmd, melanin, step), melanin, step),
+        _growth(_response(thickening / med, thickness, step), thickness, step),
+    )
+
+
+def _between(
+    curves: tuple[np.ndarray, ...], times: np.ndarray, marks: int, step: int
 ) -> np.ndarray:
-    """Melanin of the layers and thickness beyond those without sun (H, T, 4), in 5.12's units."""
-    marks = int(np.ceil(times.max(initial=0.0) / step))
+    """Curves at some times (H, T, 4), straight between the steps' ends."""
     before = np.minimum((times / step).astype(int), max(marks - 1, 0))
     after = np.minimum(before + 1, marks)
     fraction = (times / step - before)[:, None]
     ends = where(before), where(after)
-
-    result = np.empty((int(np.prod(exposures.doses.shape[:-1])), times.size, 4))
-    hours = 1 + marks * step
-    together = max(CELLS_TOGETHER // hours, 1)
-    for first in range(0, len(result), together):
-        some = slice(first, first + together)
-        received = _by_hour(exposures.hours, exposures.doses, some, hours)
-        thickening = _by_hour(exposures.hours, exposures.thickening_doses, some, hours)
-        curves = (
-            *_melanin(_response(received / mmd, melanin, step), melanin, step),
-            _growth(_response(thickening / med, thickness, step), thickness, step),
-        )
-        for part, curve in enumerate(curves):
-            there = curve[ends[0]] * (1.0 - fraction) + curve[ends[1]] * fraction
-            result[some, :, part] = there.T
+    result = np.empty((curves[0].shape[2], times.size, 4))
+    for part, curve in enumerate(curves):
+        there = curve[ends[0]] * (1.0 - fraction) + curve[ends[1]] * fraction
+        result[..., part] = there.T
     return result
+
+
+def _make_relative(
+    states: np.ndarray, melanin: MelaninDynamics, thickness: ThicknessDynamics
+) -> None:
+    """Make states of departures (..., 4), in place."""
+    without_sun = np.append(melanin.steady_state(), thickness.steady_state())
+    # What is left of a layer's melanin may round to less than none.
+    np.maximum(states + without_sun, 0.0, out=states)
+    states /= np.append(np.full(3, without_sun[:3].sum()), without_sun[3])
 
 
 def hill(signal: np.ndarray, constant: float, exponent: float) -> np.ndarray:

@@ -13,6 +13,7 @@ STANDARD = set(sys.stdlib_module_names)
 
 ALLOWED = {
     "hylios": {"numpy"},
+    "hylios/commands": {"numpy", "tqdm"},
     "hylios/lab/colour.py": {"numpy", "colour"},
     "hylios/lab/predecessors": {"numpy", "numba", "scipy"},
     "hylios/lab/pictures.py": {"numpy", "matplotlib"},

@@ -49,7 +49,7 @@ def test_tan_takes_a_med_and_steps(capsys):
     """Thickness alone follows the MED; lines come by the step, halves of an hour between."""
     asked = "tan --dose 0:10 --mmd 5 --hours 24 "
     outputs = []
-    for more in ("--med 3", "--med 50", "--med 3 --step 0.5", "--med 3 --step 12"):
+    for more in ("--med 3", "--med 50", "--med 3 --step 1/2", "--med 3 --step 12"):
         assert main((asked + more).split()) == 0
         outputs.append(rows(capsys.readouterr().out))
     usual, hardy, halves, longer = outputs
@@ -114,6 +114,9 @@ def test_tan_prints_every_hour(capsys):
         ("tan --dose 0.5:3", "an hour of exposure is"),
         ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
         ("tan --hours -1", "number of hours is -1"),
+        ("tan --step 0", "step is 0.0 hours; allowed is 1 to 24 in whole numbers, or 1 divided"),
+        ("tan --step 1/0", "step is nan hours"),
+        ("tan --step 1/7/2", "step is '7/2'; expected a number"),
         ("tan --dose inf:30", "an hour of exposure is"),
         ("tan --dose 1e19:30", "an hour of exposure is"),
     ],

@@ -1,5 +1,6 @@
 """The tanning model against the thesis, its limits and itself."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from hylios.tanning import (
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
     simulate,
+    simulate_in_parts,
     states_at,
 )
 
@@ -360,3 +362,29 @@ def test_a_dose_for_the_thickness_of_its_own():
     thin = simulate(Exposures([0], [10.0], [0.0]), dynamics, mmd=2.89, med=1.7, hours=100)
     assert np.array_equal(thin.melanin, usual.melanin)
     assert np.all(thin.thickness == thin.thickness[0])
+
+
+@pytest.mark.parametrize(("hours", "step"), [(0, 1), (1, 24), (500, 1), (500, 7), (30, 1 / 60)])
+def test_parts_of_a_history_are_the_history_to_the_last_bit(hours, step):
+    skin = {"melanin": PIGMENTATIONS["high"], "mmd": 3.0, "med": 2.0, "hours": hours, "step": step}
+    exposures = Exposures([0, 20, 480], [30.0, 9.0, 4.0], [25.0, 8.0, 4.0])
+    whole = simulate(exposures, **skin)
+    parts = list(simulate_in_parts(exposures, **skin, rows=100))
+    assert max(part.hours.size for part in parts) <= 100
+    for name in ("hours", "melanin", "thickness"):
+        joined = np.concatenate([getattr(part, name) for part in parts])
+        assert np.array_equal(joined, getattr(whole, name))
+
+
+def test_minutes_of_ten_years_need_little_memory():
+    """5.3 million rows, of which the states alone would have 170 MB."""
+    exposures = Exposures([0], [30.0])
+    parts = simulate_in_parts(
+        exposures, PIGMENTATIONS["low"], mmd=3.0, med=2.0, hours=24 * 3653, step=1 / 60
+    )
+    tracemalloc.start()
+    rows = sum(part.hours.size for part in parts)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert rows == 24 * 3653 * 60 + 1
+    assert peak < 40e6

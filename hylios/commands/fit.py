@@ -13,6 +13,7 @@ from hylios.commands.shell import (
     number,
     wavelength_range,
 )
+from hylios.commands.streams import progress
 from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
 from hylios.readers.spectrum import read_spectrum
@@ -46,31 +47,34 @@ def add_to(commands) -> None:
     parser.add_argument("--free", help="what may change, by name, with commas between")
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Fit and print."""
     from hylios.lab.fit import COLOUR_COUNT, USUAL, fit_colour, fit_spectrum  # scipy
 
-    start, model = chosen_skin(asked)
+    start, model = chosen_skin(arguments)
     light = {
-        "free": USUAL if asked.free is None else tuple(asked.free.split(",")),
-        "angle": asked.angle,
+        "free": USUAL if arguments.free is None else tuple(arguments.free.split(",")),
+        "angle": arguments.angle,
         "model": model,
     }
-    if asked.srgb is not None:
-        wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
-        found = fit_colour(start, _colour(asked.srgb), **light)
-        target = f"the colour {shown(asked.srgb)}"
-        error = f"{np.linalg.norm(found.residual):.2f} off in L*a*b* (CIE76)"
-    else:
-        measured = read_spectrum(asked.spectrum, asked.column)
-        wavelengths = _wavelengths(asked.wavelengths, measured.wavelengths)
-        reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
-        found = fit_spectrum(start, wavelengths, reflectance, **light)
-        target = f"{measured.name}, {shown(asked.column)}, at {wavelengths.size} wavelengths"
-        error = f"root mean square error {found.rmse:.4f}"
+    with progress("fit", None, " solutions") as advance:
+        if arguments.srgb is not None:
+            wavelengths = skin_quadrature(COLOUR_COUNT).wavelengths
+            result = fit_colour(start, _colour(arguments.srgb), **light, advance=advance)
+            target = f"the colour {shown(arguments.srgb)}"
+            error = f"{np.linalg.norm(result.residual):.2f} off in L*a*b* (CIE76)"
+        else:
+            measured = read_spectrum(arguments.spectrum, arguments.column)
+            wavelengths = _wavelengths(arguments.wavelengths, measured.wavelengths)
+            reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
+            result = fit_spectrum(start, wavelengths, reflectance, **light, advance=advance)
+            target = (
+                f"{measured.name}, {shown(arguments.column)}, at {wavelengths.size} wavelengths"
+            )
+            error = f"root mean square error {result.rmse:.4f}"
     note_estimates(model, wavelengths)
-    fitted = replace(found.specimen, name=f"{start.name} fitted")
-    remarks = (f"Fitted to {target}: {error}.", *found.remarks())
+    fitted = replace(result.specimen, name=f"{start.name} fitted")
+    remarks = (f"Fitted to {target}: {error}.", *result.remarks())
     print(specimen_toml(fitted, remarks), end="")
 
 
@@ -82,12 +86,12 @@ def _wavelengths(text: str | None, measured: np.ndarray) -> np.ndarray:
     if text is None:
         count = min(measured.size, MOST_WAVELENGTHS)
         return measured[np.round(np.linspace(0, measured.size - 1, count)).astype(int)]
-    asked = wavelength_range(text)
-    if asked.min() < measured[0] or asked.max() > measured[-1]:
+    wavelengths = wavelength_range(text)
+    if wavelengths.min() < measured[0] or wavelengths.max() > measured[-1]:
         raise InputError(
             f"wavelengths are {text!r}; the spectrum has {measured[0]:g} to {measured[-1]:g} nm."
         )
-    return asked
+    return wavelengths
 
 
 def _colour(text: str) -> np.ndarray:

@@ -11,59 +11,19 @@ start (Tikhonov's regularisation: as if `EXPECTED_SPREAD` of its range were its 
 among people), and the result says how much of that spread the data leave.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from types import MappingProxyType
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from hylios.adding import spectra
 from hylios.errors import InputError, require_range
+from hylios.lab.free_parameters import USUAL, Unknowns, unknowns_of
 from hylios.quadrature import skin_quadrature
-from hylios.skin.physiology import PHYSIOLOGY
-from hylios.skin.specimen import EPIDERMIS, Specimen, parameters
+from hylios.skin.specimen import Specimen
 from hylios.threads import one_thread
 from hylios.tissue import Model
-
-GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {
-        "melanin": tuple(
-            f"{layer}_{form}"
-            for form in ("melanosomes", "colloidal_melanin")
-            for layer in EPIDERMIS
-        ),
-        "melanosomes": tuple(f"{layer}_melanosomes" for layer in EPIDERMIS),
-        "colloidal_melanin": tuple(f"{layer}_colloidal_melanin" for layer in EPIDERMIS),
-        "blood": ("papillary_blood", "reticular_blood"),
-        "oxygenation": ("oxygenated_blood",),
-        "water": ("corneum_water", "epidermis_water", "papillary_water", "reticular_water"),
-        "lipids": ("corneum_lipids", "epidermis_lipids", "papillary_lipids", "reticular_lipids"),
-        "corneum": ("corneum_thickness",),
-        "epidermis": tuple(f"{layer}_thickness" for layer in EPIDERMIS),
-        "dermis": ("papillary_thickness", "reticular_thickness"),
-        "hypodermis": ("hypodermis_reflectance",),
-    }
-)
-"""Parameters that a fit changes by one common factor."""
-
-USUAL = (
-    "melanin",
-    "blood",
-    "oxygenation",
-    "water",
-    "corneum",
-    "epidermis",
-    "dermis",
-    "hypodermis",
-)
-"""What is free unless something else is asked for."""
-
-EXPECTED_SPREAD = 0.25
-"""Standard deviation expected of an unknown before any data, as a share of its bounds' distance."""
-
-LEAST_FACTOR = 1e-3
-"""Smallest factor of a group whose physiological range begins at 0."""
 
 DETERMINED = 0.5
 """The data determine an unknown where they leave less than this share of its expected spread."""
@@ -88,6 +48,11 @@ COLOUR_COUNT = 8
 
 COLOUR_UNCERTAINTY = 1.0
 """Standard deviation in L*a*b* by which model and measured colour are expected to differ."""
+
+SOLVED_TOGETHER = 1024
+"""Wavelengths of specimens that are solved at once, for memory."""
+
+Advance = Callable[[int], object]
 
 Observe = Callable[[Sequence[Specimen]], np.ndarray]
 """What would be measured of each specimen: (S, M) for M measured numbers."""
@@ -162,16 +127,17 @@ class Fit:
     def remarks(self) -> list[str]:
         """What the data do not determine, a line each."""
         lines = []
-        for each in self.free:
-            if each.at_bound:
+        for unknown in self.free:
+            if unknown.at_bound:
                 lines.append(
-                    f"{each.name} is at an end of its physiological range: {each.factor:.3g} "
-                    f"times the start's, of {each.low:.3g} to {each.high:.3g}."
+                    f"{unknown.name} is at an end of its physiological range: "
+                    f"{unknown.factor:.3g} times the start's, of {unknown.low:.3g} to "
+                    f"{unknown.high:.3g}."
                 )
-            elif not each.determined:
+            elif not unknown.determined:
                 lines.append(
-                    f"{each.name} is not determined: the data leave {100.0 * each.left:.0f} % of "
-                    "what was open."
+                    f"{unknown.name} is not determined: the data leave "
+                    f"{100.0 * unknown.left:.0f} % of what was open."
                 )
         for first, second, correlation in self.confounded:
             lines.append(
@@ -204,106 +170,90 @@ def fit(
     InputError
         If a name is unknown, named twice, or its parameters are all 0 at the start.
     """
-    names = tuple(free)
-    if not names:
-        raise InputError("nothing is free; a fit needs at least one parameter or group to change.")
-    low, high = np.array([_bounds(start, name) for name in names]).T
-    if len({field for name in names for field in _fields(name)}) < sum(
-        len(_fields(name)) for name in names
-    ):
-        raise InputError(f"free parameters are {', '.join(names)}; allowed is each only once.")
-    room = np.log(high / low)
-    expected = EXPECTED_SPREAD * room
-    evaluations = 0
+    unknowns = unknowns_of(start, tuple(free))
 
-    def misfit(unknowns: np.ndarray) -> np.ndarray:
+    def misfit(logarithms: np.ndarray) -> np.ndarray:
         """(P, M + K) weighted residuals of (P, K) unknowns."""
-        nonlocal evaluations
-        evaluations += len(unknowns)
-        seen = observe([scaled(start, names, np.exp(each)) for each in unknowns])
-        return np.hstack([(seen - measured) / uncertainty, unknowns / expected])
+        seen = observe([unknowns.specimen(row) for row in logarithms])
+        return np.hstack([(seen - measured) / uncertainty, logarithms / unknowns.expected])
 
-    def slopes(unknowns: np.ndarray) -> np.ndarray:
-        inwards = np.where(unknowns + STEP > np.log(high), -STEP, STEP)
-        moved = misfit(np.vstack([unknowns, unknowns + np.diag(inwards)]))
+    def slopes(logarithms: np.ndarray) -> np.ndarray:
+        inwards = np.where(logarithms + STEP > np.log(unknowns.high), -STEP, STEP)
+        moved = misfit(np.vstack([logarithms, logarithms + np.diag(inwards)]))
         return ((moved[1:] - moved[0]) / inwards[:, None]).T
 
+    least, most = np.log(unknowns.low), np.log(unknowns.high)
+    margin = MARGIN * unknowns.room
     with one_thread():
-        found = least_squares(
-            lambda unknowns: misfit(unknowns[None])[0],
-            np.clip(0.0, np.log(low) + MARGIN * room, np.log(high) - MARGIN * room),
+        solution = least_squares(
+            lambda logarithms: misfit(logarithms[None])[0],
+            np.clip(0.0, least + margin, most - margin),
             jac=slopes,  # type: ignore[arg-type]  # scipy's stubs know only its names of methods
-            bounds=(np.log(low), np.log(high)),
+            bounds=(least, most),
             xtol=TOLERANCE,
             ftol=TOLERANCE,
             max_nfev=MOST_STEPS,
         )
-    covariance = np.linalg.inv(found.jac.T @ found.jac)
-    spread = np.sqrt(np.diag(covariance))
-    correlation = covariance / np.outer(spread, spread)
-    specimen = scaled(start, names, np.exp(found.x))
+    specimen = unknowns.specimen(solution.x)
     observed = observe([specimen])[0]
+    free_parameters, confounded = _determined(unknowns, solution.x, solution.jac)
     return Fit(
         specimen=specimen,
-        free=tuple(
-            Free(name, *(float(each) for each in numbers))
-            for name, *numbers in zip(
-                names, np.exp(found.x), low, high, spread, spread / expected, strict=True
-            )
-        ),
+        free=free_parameters,
         observed=observed,
         residual=observed - measured,
-        confounded=tuple(
-            (names[first], names[second], float(correlation[first, second]))
-            for first in range(len(names))
-            for second in range(first)
-            if abs(correlation[first, second]) > CONFOUNDED
-        ),
-        evaluations=evaluations,
+        confounded=confounded,
+        evaluations=int(solution.nfev + solution.njev * (1 + len(unknowns.names))),
     )
 
 
-def scaled(start: Specimen, names: Sequence[str], factors: np.ndarray) -> Specimen:
-    """The specimen with the parameters of each named group multiplied by its factor."""
-    changes = {
-        field: getattr(start, field) * float(factor)
-        for name, factor in zip(names, factors, strict=True)
-        for field in _fields(name)
-    }
-    return replace(start, **changes)
+def _determined(
+    unknowns: Unknowns, logarithms: np.ndarray, slopes: np.ndarray
+) -> tuple[tuple[Free, ...], tuple[tuple[str, str, float], ...]]:
+    """Unknowns with what the data say of them, and pairs that they tell apart badly.
 
-
-def _fields(name: str) -> tuple[str, ...]:
-    single = [each.name for each in parameters()]
-    if name in GROUPS:
-        return GROUPS[name]
-    if name in single:
-        return (name,)
-    raise InputError(
-        f"there is nothing called {name!r} to fit; there are {', '.join([*GROUPS, *single])}."
+    Parameters
+    ----------
+    logarithms : (K,) array
+        Of the factors where the fit ended.
+    slopes : (M + K, K) array
+        Of the weighted residuals there.
+    """
+    covariance = np.linalg.inv(slopes.T @ slopes)
+    spread = np.sqrt(np.diag(covariance))
+    correlation = covariance / np.outer(spread, spread)
+    names, left = unknowns.names, spread / unknowns.expected
+    numbers = zip(np.exp(logarithms), unknowns.low, unknowns.high, spread, left, strict=True)
+    free = tuple(Free(name, *map(float, row)) for name, row in zip(names, numbers, strict=True))
+    confounded = tuple(
+        (names[first], names[second], float(correlation[first, second]))
+        for first in range(len(names))
+        for second in range(first)
+        if abs(correlation[first, second]) > CONFOUNDED
     )
-
-
-def _bounds(start: Specimen, name: str) -> tuple[float, float]:
-    """Least and greatest factor that keep a group's parameters in their physiological ranges."""
-    low, high = LEAST_FACTOR, np.inf
-    for field in _fields(name):
-        value, limits = getattr(start, field), PHYSIOLOGY[field]
-        if value > 0.0:
-            low, high = max(low, limits.low / value), min(high, limits.high / value)
-    if not np.isfinite(high):
-        raise InputError(f"{name} is 0 at the start of the fit; allowed is more than 0.")
-    if not low < high:
-        raise InputError(
-            f"{name} of {start.name} lies outside its physiological range; allowed is a start "
-            "within it."
-        )
-    return low, high
+    return free, confounded
 
 
 def _require_shares(name: str, values: np.ndarray) -> None:
-    for each in values:
-        require_range(name, float(each), 0.0, 1.0)
+    for value in values:
+        require_range(name, float(value), 0.0, 1.0)
+
+
+def _observed(
+    specimens: Sequence[Specimen],
+    wavelengths: np.ndarray,
+    angle: float,
+    model: Model | None,
+    advance: Advance,
+) -> np.ndarray:
+    """Reflectance (S, W) of specimens, a part of the wavelengths after the other."""
+    size = max(SOLVED_TOGETHER // len(specimens), 1)
+    parts = []
+    for first in range(0, wavelengths.size, size):
+        some = wavelengths[first : first + size]
+        parts.append(spectra(specimens, some, angle=angle, model=model).total)
+        advance(len(specimens) * some.size)
+    return np.hstack(parts)
 
 
 def fit_spectrum(
@@ -314,6 +264,7 @@ def fit_spectrum(
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
     model: Model | None = None,
+    advance: Advance = lambda solved: None,
 ) -> Fit:
     """The specimen whose directional-hemispherical reflectance is nearest to a measured one.
 
@@ -323,6 +274,8 @@ def fit_spectrum(
         nm, and 0 to 1.
     angle : float
         Of incidence, in degrees.
+    advance : function
+        Told how many more wavelengths of specimens have been solved.
 
     Raises
     ------
@@ -351,8 +304,7 @@ def fit_spectrum(
     _require_shares("a reflectance to fit", reflectance)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        found = spectra(specimens, wavelengths, angle=angle, model=model)
-        return found.total
+        return _observed(specimens, wavelengths, angle, model, advance)
 
     return fit(start, observe, reflectance, SPECTRAL_UNCERTAINTY, free)
 
@@ -364,6 +316,7 @@ def fit_colour(
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
     model: Model | None = None,
+    advance: Advance = lambda solved: None,
 ) -> Fit:
     """The specimen of a colour: three numbers, so most of it is left as in `start`.
 
@@ -371,6 +324,8 @@ def fit_colour(
     ----------
     srgb : (3,) array
         0 to 1, seen under D65. The fit is in L*a*b*.
+    advance
+        As in `fit_spectrum`.
 
     Raises
     ------
@@ -393,7 +348,7 @@ def fit_colour(
     few = skin_quadrature(COLOUR_COUNT)
 
     def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        seen = spectra(specimens, few.wavelengths, angle=angle, model=model)
-        return lab(seen.total @ few.weights.T)
+        seen = _observed(specimens, few.wavelengths, angle, model, advance)
+        return lab(seen @ few.weights.T)
 
     return fit(start, observe, lab(linear_of_srgb(srgb)), COLOUR_UNCERTAINTY, free)

@@ -8,8 +8,10 @@ import pytest
 from hylios.adding import solve
 from hylios.commands.cli import main
 from hylios.errors import InputError
+from hylios.lab import fit
 from hylios.lab.colour import linear_rec709, srgb
-from hylios.lab.fit import GROUPS, USUAL, fit_colour, fit_spectrum, scaled
+from hylios.lab.fit import fit_colour, fit_spectrum
+from hylios.lab.free_parameters import GROUPS, USUAL, scaled
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import SPECIMENS, parameters
 from hylios.skin.specimen_file import read_specimen
@@ -157,3 +159,23 @@ def test_arrays_that_are_no_spectrum_are_refused(wavelengths, reflectance, sente
 def test_arrays_that_are_no_colour_are_refused(colour):
     with pytest.raises(InputError, match="colour to fit"):
         fit_colour(S3, np.array(colour))
+
+
+def test_a_fit_in_parts_tells_how_far_it_is_and_ends_alike(monkeypatch):
+    """Memory is bounded by the wavelengths solved at once; that changes no number."""
+    wavelengths = np.arange(450.0, 651.0, 50.0)
+    reflectance = np.linspace(0.2, 0.5, wavelengths.size)
+    results, told = [], []
+    for together in (fit.SOLVED_TOGETHER, 3):
+        monkeypatch.setattr(fit, "SOLVED_TOGETHER", together)
+        told.append([])
+        results.append(
+            fit_spectrum(
+                SPECIMENS["S3"], wavelengths, reflectance, free=["melanin"], advance=told[-1].append
+            )
+        )
+    assert results[0].specimen == results[1].specimen
+    assert results[0].observed.tolist() == results[1].observed.tolist()
+    solved = (results[0].evaluations + 1) * wavelengths.size
+    assert sum(told[0]) == sum(told[1]) == solved
+    assert max(told[1]) <= 3

@@ -1,4 +1,6 @@
-"""The one exception of this project for input that cannot be used."""
+"""The one exception of this project for input that cannot be used, and what its sentences need."""
+
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -6,6 +8,17 @@ from numpy.typing import ArrayLike
 
 class InputError(ValueError):
     """Input that cannot be used; its message is one sentence with the thing, value and range."""
+
+
+def shown(text: str | Path) -> str:
+    """A text on one line as a terminal can show it; what cannot be printed is escaped.
+
+    A file's name may hold line breaks, a terminal's commands, or bytes that are no text.
+    """
+    return "".join(
+        character if character.isprintable() else character.encode("unicode_escape").decode()
+        for character in str(text)
+    )
 
 
 def require_range(name: str, value: float, low: float, high: float, unit: str = "") -> float:

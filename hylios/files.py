@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from hylios.errors import InputError
-from hylios.readers.text import shown
+from hylios.errors import InputError, shown
 
 HALF_WRITTEN = ".skin-tan-"
 """What the name of a file begins with while it is being written."""
@@ -28,8 +27,11 @@ def regular_bytes(path: Path, most: int) -> bytes:
             raise InputError(f"{name} cannot be read: it is no regular file.")
         with path.open("rb") as file:
             data = file.read(most + 1)
-    except OSError as error:
-        raise InputError(f"{name} cannot be read: {error.strerror}.") from error
+    except InputError:
+        raise
+    except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise InputError(f"{name} cannot be read: {reason}.") from error
     if len(data) > most:
         raise InputError(f"{name} cannot be read: it has more than {most} bytes.")
     return data
@@ -46,7 +48,8 @@ def require_target(target: Path, suffixes: tuple[str, ...], replacing: bool) -> 
         Whether it may exist already.
     """
     if target.suffix.lower() not in suffixes:
-        raise InputError(f"the file is to be {target}; its name must end in {_listed(suffixes)}.")
+        endings = _listed(suffixes)
+        raise InputError(f"the file is to be {shown(target)}; its name must end in {endings}.")
     if target.is_dir() or (target.exists() and not replacing):
         hint = "it is a folder" if target.is_dir() else "replacing=True replaces it"
         raise InputError(f"{target} exists already; {hint}.")

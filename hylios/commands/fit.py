@@ -14,10 +14,9 @@ from hylios.commands.shell import (
     wavelength_range,
 )
 from hylios.commands.streams import progress
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.quadrature import skin_quadrature
 from hylios.readers.spectrum import read_spectrum
-from hylios.readers.text import shown
 from hylios.skin.specimen_file import specimen_toml
 
 

@@ -3,9 +3,9 @@
 import argparse
 from pathlib import Path
 
+from hylios.errors import shown
 from hylios.files import require_target
 from hylios.readers.spectrum import read_spectra
-from hylios.readers.text import shown
 
 
 def add_to(commands) -> None:

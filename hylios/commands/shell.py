@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hylios.commands.streams import discard_output, prepare_streams
-from hylios.errors import InputError, require_whole
-from hylios.readers.text import shown
+from hylios.errors import InputError, require_whole, shown
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.specimen import Specimen, parameters, with_values

@@ -12,10 +12,9 @@ from hylios.commands.shell import (
     note_estimates,
     require_work,
 )
-from hylios.errors import InputError, require_range, require_whole
+from hylios.errors import InputError, require_range, require_whole, shown
 from hylios.files import require_target
 from hylios.readers.spectrum import NamedSpectrum, read_spectra
-from hylios.readers.text import shown
 
 DESCRIPTION = """\
 One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.

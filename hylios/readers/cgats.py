@@ -10,11 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.readers.layout import NUMBER
 from hylios.readers.quantities import REFLECTANCE, WAVELENGTH
 from hylios.readers.table import Table
-from hylios.readers.text import shown
 
 TOKEN = re.compile(r'"[^"]*"|[^\s"]+')
 FIELD = re.compile(

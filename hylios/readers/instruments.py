@@ -6,8 +6,7 @@ Written after what readers of such files in use take for granted, and tried on s
 import re
 from collections.abc import Sequence
 
-from hylios.errors import InputError
-from hylios.readers.text import shown
+from hylios.errors import InputError, shown
 
 SVC_MARK = "/*** Spectra Vista"
 SVC_TITLES = "wavelength_nm reference target reflectance_percent"

@@ -5,9 +5,8 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.readers.quantities import KNOWN_UNITS, Quantity, place, unit
-from hylios.readers.text import shown
 
 SEPARATORS = ("\t", ";", ",", " ")
 """What may part cells; blanks may be several, and part cells only where nothing else does."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.readers.cgats import cgats_table, is_cgats
 from hylios.readers.quantities import (
     ABSORBANCE,
@@ -19,7 +19,7 @@ from hylios.readers.quantities import (
     Quantity,
 )
 from hylios.readers.table import Table, read_table, table_of
-from hylios.readers.text import STANDARD_INPUT, lines_of, name_of, shown
+from hylios.readers.text import STANDARD_INPUT, lines_of, name_of
 
 SHORTEST_NM, LONGEST_NM = 100.0, 1e5
 """Wavelengths that may be meant: micrometres lie below."""

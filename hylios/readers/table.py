@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.readers.instruments import without_instruments_words
 from hylios.readers.layout import NOT_FINITE, NUMBER, SEPARATORS, Layout, NoHeaderError, laid_out
 from hylios.readers.quantities import Quantity, place
-from hylios.readers.text import lines_of, name_of, shown
+from hylios.readers.text import lines_of, name_of
 
 THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
 """Numbers with a comma that may be a decimal one or part thousands."""

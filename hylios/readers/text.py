@@ -1,13 +1,12 @@
 """Files of text as people have them: opened with care, decoded by what they are."""
 
 import codecs
-import os
 import re
-import stat
 import sys
 from pathlib import Path
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
+from hylios.files import regular_bytes
 
 MOST_BYTES = 16 * 2**20
 """Of a file; a spectrum by hundredths of a nm, or the doses of a century, have less."""
@@ -22,17 +21,6 @@ MARKS = (
 """Byte-order marks; that of UTF-16 is the beginning of one of UTF-32, which so comes first."""
 
 STANDARD_INPUT = Path("-")
-
-
-def shown(text: str | Path) -> str:
-    """A text on one line as a terminal can show it; what cannot be printed is escaped.
-
-    A file's name may hold line breaks, a terminal's commands, or bytes that are no text.
-    """
-    return "".join(
-        character if character.isprintable() else character.encode("unicode_escape").decode()
-        for character in str(text)
-    )
 
 
 def name_of(path: Path) -> str:
@@ -52,29 +40,21 @@ def lines_of(path: Path) -> list[str]:
         If it is no regular file or standard input, cannot be read, has more than `MOST_BYTES`, or
         is no text.
     """
-    name = name_of(path)
-    data = _bytes_of(path, name)
-    if len(data) > MOST_BYTES:
-        raise InputError(f"{name} has more than {MOST_BYTES} bytes, which are allowed.")
-    return re.split("\r\n|\r|\n", _decoded(data, name))
+    return re.split("\r\n|\r|\n", _decoded(_bytes_of(path), name_of(path)))
 
 
-def _bytes_of(path: Path, name: str) -> bytes:
-    """No more of a file than is needed to see that it is too large."""
+def _bytes_of(path: Path) -> bytes:
+    if path != STANDARD_INPUT:
+        return regular_bytes(path, MOST_BYTES)
+    if sys.stdin is None:
+        raise InputError("standard input cannot be read: it is closed.")
     try:
-        if path == STANDARD_INPUT:
-            if sys.stdin is None:
-                raise InputError("standard input cannot be read: it is closed.")
-            return sys.stdin.buffer.read(MOST_BYTES + 1)
-        if not stat.S_ISREG(os.stat(path).st_mode):
-            raise InputError(f"{name} cannot be read: it is no regular file; - is standard input.")
-        with path.open("rb") as file:
-            return file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise InputError(f"{name} cannot be read: {reason}.") from error
+        data = sys.stdin.buffer.read(MOST_BYTES + 1)
+    except OSError as error:
+        raise InputError(f"standard input cannot be read: {error.strerror}.") from error
+    if len(data) > MOST_BYTES:
+        raise InputError(f"standard input cannot be read: it has more than {MOST_BYTES} bytes.")
+    return data
 
 
 def _decoded(data: bytes, name: str) -> str:

@@ -6,9 +6,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.files import regular_bytes
-from hylios.readers.text import shown
 from hylios.skin.phototypes import named_specimen
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import Specimen, parameters, specimen_of

@@ -180,7 +180,7 @@ def test_only_regular_files_are_opened(tmp_path):
     fifo = tmp_path / "fifo"
     os.mkfifo(fifo)
     for path in (fifo, Path("/dev/zero"), tmp_path):
-        with pytest.raises(InputError, match="it is no regular file; - is standard input"):
+        with pytest.raises(InputError, match="it is no regular file"):
             text.lines_of(path)
     with pytest.raises(InputError, match="cannot be read: No such file or directory"):
         text.lines_of(tmp_path / "none")
@@ -192,7 +192,7 @@ def test_a_large_file_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(text, "MOST_BYTES", 10)
     path = tmp_path / "large.csv"
     path.write_text("12345678901")
-    with pytest.raises(InputError, match="has more than 10 bytes, which are allowed"):
+    with pytest.raises(InputError, match="it has more than 10 bytes"):
         text.lines_of(path)
 
 

@@ -44,5 +44,5 @@ def tabulated(
 @lru_cache(maxsize=64)
 def _absorptance(specimen: Specimen, model: Model) -> Absorptance:
     wavelengths = np.arange(FIRST_NM, LAST_NM + STEP_NM, STEP_NM)
-    found = spectrum(specimen, wavelengths, model=model)
-    return Absorptance(wavelengths, found.absorptance)
+    absorbed = spectrum(specimen, wavelengths, model=model).absorptance
+    return Absorptance(wavelengths, absorbed)

@@ -74,8 +74,9 @@ def colours(
     if states.ndim != 2 or states.shape[1] != 4:
         raise InputError(f"tanning states have shape {states.shape}; expected (N, 4).")
     colour = skin_quadrature(count)
-    asked = list(require_wavelengths(bands, (model or Model()).spectra)) if len(bands) else []
-    wavelengths = [*colour.wavelengths, *asked]
+    if len(bands):
+        bands = require_wavelengths(bands, (model or Model()).spectra).tolist()
+    wavelengths = [*colour.wavelengths, *bands]
     pieces = []
     for first in range(0, len(states), TOGETHER):
         some = states[first : first + TOGETHER]
@@ -84,8 +85,8 @@ def colours(
         if progress:
             progress(len(some))
     empty = np.empty((0, len(wavelengths)))
-    subsurface = np.concatenate([empty, *(each.subsurface for each in pieces)])
-    total = np.concatenate([empty, *(each.total for each in pieces)])
+    subsurface = np.concatenate([empty, *(piece.subsurface for piece in pieces)])
+    total = np.concatenate([empty, *(piece.total for piece in pieces)])
     return StateColours(
         subsurface[:, :count] @ colour.weights.T,
         total[:, :count] @ colour.weights.T,

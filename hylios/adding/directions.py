@@ -53,7 +53,7 @@ class Directions:
         cosine, weight : (M,) arrays
         """
         parts = [self.points(segments, part, self.counts[part]) for part in range(segments)]
-        _, cosine, weight = (np.concatenate(each) for each in zip(*parts, strict=True))
+        _, cosine, weight = (np.concatenate(values) for values in zip(*parts, strict=True))
         return cosine, weight
 
     def points(self, segments: int, part: int, count: int):
@@ -69,8 +69,8 @@ def node_counts(bounds: np.ndarray, nodes: int) -> tuple[int, ...]:
     """Nodes of each segment, about `nodes` in all but for the least that narrow ones have.
 
     There are only three classes of width, so that for all that skin's refractive indices can be
-    at any wavelength counts are the same: a change of them is a step, if a small one, in what is
-    found.
+    at any wavelength counts are the same: a change of them is a step, if a small one, in the
+    result.
     """
     widths = np.sqrt(np.diff(bounds))
     shares = np.select([widths > 0.75, widths > 0.35], [7.0, 5.0], 2.0)
@@ -92,12 +92,12 @@ def interpolation(made: Directions, squared: np.ndarray, weight: np.ndarray) -> 
     rows = squared.shape[0]
     part = np.searchsorted(made.bounds[1:-1], squared, side="right")
     result = []
-    for each, count in enumerate(made.counts):
-        row, column = np.nonzero((part == each) & (weight > 0.0))
-        upper = made.bounds[each + 1]
-        width = max(upper - made.bounds[each], 1e-300)
+    for segment, count in enumerate(made.counts):
+        row, column = np.nonzero((part == segment) & (weight > 0.0))
+        upper = made.bounds[segment + 1]
+        width = max(upper - made.bounds[segment], 1e-300)
         depth = np.clip((upper - squared[row, column]) / width, 0.0, 1.0)
-        values = lagrange(_roots(count, each > 0)[0], _place(np.sqrt(depth), each > 0))
+        values = lagrange(_roots(count, segment > 0)[0], _place(np.sqrt(depth), segment > 0))
         values *= weight[row, column, None]
         target = row[:, None] * count + np.arange(count)
         summed = np.bincount(target.ravel(), values.ravel(), minlength=rows * count)
@@ -139,9 +139,9 @@ def integrals(made: Directions, segments: int, order: int) -> Integrals:
         weights.append(weight)
     shape = np.zeros((sum(map(len, cosines)), made.within(segments)))
     row, column = 0, 0
-    for each in shapes:
-        shape[row : row + each.shape[0], column : column + each.shape[1]] = each
-        row, column = row + each.shape[0], column + each.shape[1]
+    for block in shapes:
+        shape[row : row + block.shape[0], column : column + block.shape[1]] = block
+        row, column = row + block.shape[0], column + block.shape[1]
     cosine, weight = np.concatenate(cosines), np.concatenate(weights)
     polynomials = np.empty((order + 1, cosine.size))
     polynomials[0] = 1.0

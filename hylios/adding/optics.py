@@ -49,8 +49,8 @@ class Pattern:
 
 
 @dataclass(frozen=True)
-class Figures:
-    """The numbers from which the optics of a stack of a known pattern follow.
+class OpticalConstants:
+    """The numbers from which, with its pattern, the optics of a stack follow.
 
     `indices` are those above, of the layers, and below; where inner faces do not reflect, light
     finds the uppermost layer's in all.
@@ -87,23 +87,23 @@ class Optics:
     entering: np.ndarray
 
 
-def figures(stack: Stack) -> Figures:
-    """The figures of a stack."""
-    inner = tuple(each.refractive_index for each in stack.layers)
+def optical_constants(stack: Stack) -> OpticalConstants:
+    """The optical constants of a stack."""
+    inner = tuple(layer.refractive_index for layer in stack.layers)
     if stack.readings["inner_fresnel"] == "off":
         inner = inner[:1] * len(inner)
     below = inner[-1] if stack.lambertian_floor else stack.index_below
-    return Figures(
+    return OpticalConstants(
         roughness=stack.roughness,
         scattering_angle=stack.scattering_angle,
         exponential=stack.readings["melanosome_scattering"] == "exponential",
         indices=(stack.index_above, *inner, below),
-        anisotropies=tuple(each.anisotropy for each in stack.layers),
+        anisotropies=tuple(layer.anisotropy for layer in stack.layers),
     )
 
 
-def pattern(stack: Stack, found: Figures, nodes: int) -> Pattern:
-    """The pattern of a stack with the given figures.
+def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
+    """The pattern of a stack with the given optical constants.
 
     Raises
     ------
@@ -111,11 +111,11 @@ def pattern(stack: Stack, found: Figures, nodes: int) -> Pattern:
         If a layer's thickness is not finite, or fibres that scatter once per traversal share a
         layer with other scatterers.
     """
-    values = sorted(set(found.indices))
+    values = sorted(set(constants.indices))
     return Pattern(
-        ranks=tuple(values.index(each) for each in found.indices),
+        ranks=tuple(values.index(index) for index in constants.indices),
         counts=node_counts(np.array([0.0, *values]) ** 2, nodes),
-        kinds=tuple(_kinds(each, stack) for each in stack.layers),
+        kinds=tuple(_kinds(layer, stack) for layer in stack.layers),
         floor=stack.readings["floor"] if stack.lambertian_floor else "open",
     )
 
@@ -145,15 +145,15 @@ def is_medium(kinds: tuple[str, ...]) -> bool:
 
 
 @lru_cache(maxsize=KEPT)
-def optics(found: Figures, shared: Pattern, angles: tuple[float, ...]) -> Optics:
-    """Optics of stacks with the given figures and pattern, for angles of incidence in radians."""
-    made = Directions(np.array([0.0, *sorted(set(found.indices))]) ** 2, shared.counts)
-    above, top = found.indices[0], shared.ranks[1] + 1
-    mirrored, let_out = from_inside(made, top, above, found.roughness)
-    surface, entering = from_outside(made, top, above, found.roughness, np.array(angles))
+def optics(constants: OpticalConstants, shared: Pattern, angles: tuple[float, ...]) -> Optics:
+    """Optics of stacks with these constants and pattern, for angles of incidence in radians."""
+    made = Directions(np.array([0.0, *sorted(set(constants.indices))]) ** 2, shared.counts)
+    above, top = constants.indices[0], shared.ranks[1] + 1
+    mirrored, let_out = from_inside(made, top, above, constants.roughness)
+    surface, entering = from_outside(made, top, above, constants.roughness, np.array(angles))
     return Optics(
         cosines={rank: made.cosines(rank + 1) for rank in set(shared.ranks[1:-1])},
-        media=_media(made, found, shared),
+        media=_media(made, constants, shared),
         mirrored=mirrored,
         let_out=let_out,
         surface=surface,
@@ -161,20 +161,20 @@ def optics(found: Figures, shared: Pattern, angles: tuple[float, ...]) -> Optics
     )
 
 
-def _media(made: Directions, found: Figures, shared: Pattern) -> dict[int, Medium]:
+def _media(made: Directions, constants: OpticalConstants, shared: Pattern) -> dict[int, Medium]:
     """Media of the layers; layers that are alike have one in common."""
-    keys = list(zip(shared.ranks[1:-1], shared.kinds, found.anisotropies, strict=True))
+    keys = list(zip(shared.ranks[1:-1], shared.kinds, constants.anisotropies, strict=True))
     media: dict[tuple, Medium] = {}
     for rank, kinds, anisotropy in keys:
         if is_medium(kinds) and (rank, kinds, anisotropy) not in media:
-            moments = [each for kind in kinds for each in _moments(kind, found, anisotropy)]
+            moments = [moment for kind in kinds for moment in _moments(kind, constants, anisotropy)]
             media[rank, kinds, anisotropy] = medium(integrals(made, rank + 1, ORDER), moments)
     return {number: media[key] for number, key in enumerate(keys) if key in media}
 
 
-def _moments(kind: str, found: Figures, anisotropy: float) -> list[np.ndarray]:
+def _moments(kind: str, constants: OpticalConstants, anisotropy: float) -> list[np.ndarray]:
     """Legendre moments of a kind of scatterer; of melanosomes met once and twice."""
     if kind == "melanosomes":
-        once = melanosome_moments(found.scattering_angle, found.exponential)
+        once = melanosome_moments(constants.scattering_angle, constants.exponential)
         return [once, once**2]
     return [henyey_greenstein_moments(anisotropy) if kind == "scatterers" else rayleigh_moments()]

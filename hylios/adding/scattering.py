@@ -77,7 +77,7 @@ class Medium:
     odd: tuple[np.ndarray, ...]
 
 
-def medium(found: Integrals, scatterers: Sequence[np.ndarray]) -> Medium:
+def medium(integrals: Integrals, scatterers: Sequence[np.ndarray]) -> Medium:
     """A medium in a layer's directions.
 
     Parameters
@@ -85,17 +85,17 @@ def medium(found: Integrals, scatterers: Sequence[np.ndarray]) -> Medium:
     scatterers : sequence of (ORDER + 2,) arrays
         Legendre moments.
     """
-    inverse = np.linalg.cholesky(found.slanted).T
+    inverse = np.linalg.cholesky(integrals.slanted).T
     basis = np.linalg.inv(inverse)
     # grazing light first: eigenvectors of graded matrices are accurate in this order
-    order = np.argsort(-np.einsum("ji,jk,ki->i", basis, found.mass, basis))
+    order = np.argsort(-np.einsum("ji,jk,ki->i", basis, integrals.mass, basis))
     basis, inverse = basis[:, order], inverse[order]
-    kernels = [_kernels(found, moments) for moments in scatterers]
-    even, odd = (tuple(basis.T @ each[kind] @ basis for each in kernels) for kind in (0, 1))
-    return Medium(basis, inverse, basis.T @ found.mass @ basis, even, odd)
+    kernels = [_kernels(integrals, moments) for moments in scatterers]
+    even, odd = (tuple(basis.T @ pair[kind] @ basis for pair in kernels) for kind in (0, 1))
+    return Medium(basis, inverse, basis.T @ integrals.mass @ basis, even, odd)
 
 
-def _kernels(found: Integrals, moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _kernels(integrals: Integrals, moments: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Scattering between even and between odd functions that belong to nodes, (M, M).
 
     Rows of the even one sum to the integral of the node's function: no light is lost.
@@ -103,23 +103,23 @@ def _kernels(found: Integrals, moments: np.ndarray) -> tuple[np.ndarray, np.ndar
     tail = moments[-1]
     strength = (2 * np.arange(ORDER + 1) + 1) * (moments[:-1] - tail)
     even, odd = (
-        tail * found.mass
-        + (found.legendre[start::2].T * strength[start::2]) @ found.legendre[start::2]
+        tail * integrals.mass
+        + (integrals.legendre[start::2].T * strength[start::2]) @ integrals.legendre[start::2]
         for start in (0, 1)
     )
     # what rounding leaves
-    return even + np.diag(found.legendre[0] - even.sum(axis=1)), odd
+    return even + np.diag(integrals.legendre[0] - even.sum(axis=1)), odd
 
 
 def stacked(media: Sequence[Medium]) -> Medium:
     """Several stacks' media as one."""
     kinds = range(len(media[0].even))
     return Medium(
-        basis=np.stack([each.basis for each in media]),
-        inverse=np.stack([each.inverse for each in media]),
-        mass=np.stack([each.mass for each in media]),
-        even=tuple(np.stack([each.even[kind] for each in media]) for kind in kinds),
-        odd=tuple(np.stack([each.odd[kind] for each in media]) for kind in kinds),
+        basis=np.stack([one.basis for one in media]),
+        inverse=np.stack([one.inverse for one in media]),
+        mass=np.stack([one.mass for one in media]),
+        even=tuple(np.stack([one.even[kind] for one in media]) for kind in kinds),
+        odd=tuple(np.stack([one.odd[kind] for one in media]) for kind in kinds),
     )
 
 
@@ -147,7 +147,7 @@ def response(through: Medium, thickness, extinction, kept):
     wide = (..., None, None)
     sums, differences = (
         extinction[wide] * through.mass
-        - sum(each[wide] * kernel for each, kernel in zip(kept, kinds, strict=True))
+        - sum(share[wide] * kernel for share, kernel in zip(kept, kinds, strict=True))
         for kinds in (through.even, through.odd)
     )
     lower = _cholesky(differences)

@@ -9,7 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.adding.optics import Optics, Pattern, figures, is_medium, optics, pattern
+from hylios.adding.optics import (
+    Optics,
+    Pattern,
+    is_medium,
+    optical_constants,
+    optics,
+    pattern,
+)
 from hylios.adding.scattering import once_per_traversal, response, stacked
 from hylios.adding.surface import fresnel
 from hylios.errors import InputError, require_range, require_whole
@@ -102,23 +109,23 @@ def solve(
     angles = np.atleast_1d(np.asarray(angle, dtype=float))
     if angles.ndim != 1 or not angles.size:
         raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
-    for each in angles:
-        require_range("angle of incidence", float(each), 0.0, 89.99, "degrees")
+    for degrees in angles:
+        require_range("angle of incidence", float(degrees), 0.0, 89.99, "degrees")
     radians = tuple(np.radians(angles).tolist())
-    found = [figures(each) for each in stacks]
+    constants = [optical_constants(stack) for stack in stacks]
     groups: dict[Pattern, list[int]] = {}
-    for number, (each, own) in enumerate(zip(stacks, found, strict=True)):
-        groups.setdefault(pattern(each, own, nodes), []).append(number)
+    for number, (stack, own) in enumerate(zip(stacks, constants, strict=True)):
+        groups.setdefault(pattern(stack, own, nodes), []).append(number)
     shares = np.empty((3, angles.size, len(stacks)))
     with one_thread():
         for shared, members in groups.items():
             for first in range(0, len(members), TOGETHER):
                 some = members[first : first + TOGETHER]
                 shares[:, :, some] = _added_up(
-                    [stacks[each] for each in some],
-                    np.array([found[each].indices for each in some]),
+                    [stacks[number] for number in some],
+                    np.array([constants[number].indices for number in some]),
                     shared,
-                    [optics(found[each], shared, radians) for each in some],
+                    [optics(constants[number], shared, radians) for number in some],
                 )
     return Reflectance(*(shares if np.ndim(angle) else shares[:, 0]))
 
@@ -128,17 +135,17 @@ def _added_up(
 ) -> np.ndarray:
     """Surface, subsurface and transmitted shares, (3, A, S), of stacks of one pattern.
 
-    `indices` (S, L + 2) are those of `Figures`.
+    `indices` (S, L + 2) are those of `OpticalConstants`.
     """
     cosines = {
         rank: (
-            np.stack([each.cosines[rank][0] for each in parts]),
-            np.stack([each.cosines[rank][1] for each in parts]),
+            np.stack([part.cosines[rank][0] for part in parts]),
+            np.stack([part.cosines[rank][1] for part in parts]),
         )
         for rank in set(shared.ranks[1:-1])
     }
     deepest = len(shared.kinds) - 1
-    share = np.array([each.floor_reflectance for each in stacks])
+    share = np.array([stack.floor_reflectance for stack in stacks])
     below = _floor(shared.floor, *cosines[shared.ranks[deepest + 1]], indices[:, -2:], share)
     for number in range(deepest, -1, -1):
         rank, rank_above = shared.ranks[number + 1], shared.ranks[number]
@@ -184,10 +191,10 @@ def _through_layer(
     below: Below,
 ) -> Below:
     """At the upper face of the layer with that number, from what is at its lower face."""
-    layers = [each.layers[number] for each in stacks]
-    thickness, absorption = _each(layers, "thickness"), _each(layers, "absorption")
-    rayleigh = _each(layers, "rayleigh")
-    met = np.array([_met(*each) for each in zip(layers, stacks, strict=True)])
+    layers = [stack.layers[number] for stack in stacks]
+    thickness, absorption = _values(layers, "thickness"), _values(layers, "absorption")
+    rayleigh = _values(layers, "rayleigh")
+    met = np.array([_met(layer, stack) for layer, stack in zip(layers, stacks, strict=True)])
     rate, once, twice = met[:, 0], met[:, 1], met[:, 2]
     if "melanosomes" not in kinds:
         absorption = absorption + rate - rate * (once + twice)
@@ -197,16 +204,16 @@ def _through_layer(
         returned = passed[:, :, None] * below.returned * passed[:, None, :]
         return Below(returned, passed * below.lost)
     if is_medium(kinds):
-        scattering = _each(layers, "scattering")
-        rate = rate * np.array([left_out(each) for each in layers])
+        scattering = _values(layers, "scattering")
+        rate = rate * np.array([left_out(layer) for layer in layers])
         events = {
             "melanosomes": (rate, [rate * once, rate * twice]),
             "scatterers": (scattering, [scattering]),
             "fibres": (rayleigh, [rayleigh]),
         }
         extinction = absorption + sum(events[kind][0] for kind in kinds)
-        kept = [each for kind in kinds for each in events[kind][1]]
-        media = stacked([each.media[number] for each in parts])
+        kept = [share for kind in kinds for share in events[kind][1]]
+        media = stacked([part.media[number] for part in parts])
         reflected, passed = response(media, thickness, extinction, kept)
     else:
         reflected, passed = once_per_traversal(cosine, weight, thickness, absorption, rayleigh)
@@ -220,8 +227,8 @@ def _through_layer(
     )
 
 
-def _each(layers: list[Layer], name: str) -> np.ndarray:
-    return np.array([getattr(each, name) for each in layers], dtype=float)
+def _values(layers: list[Layer], name: str) -> np.ndarray:
+    return np.array([getattr(layer, name) for layer in layers], dtype=float)
 
 
 def _met(layer: Layer, stack: Stack) -> tuple[float, float, float]:
@@ -265,7 +272,7 @@ def _through_face(reflectance: np.ndarray, count: int, below: Below) -> Below:
 def _through_surface(parts: list[Optics], below: Below) -> np.ndarray:
     """Surface, subsurface and transmitted shares, (3, A, S)."""
     mirrored, let_out, surface, entering = (
-        np.stack([getattr(each, name) for each in parts])
+        np.stack([getattr(part, name) for part in parts])
         for name in ("mirrored", "let_out", "surface", "entering")
     )
     ends = _solved(below.returned @ mirrored, below.returned @ let_out[:, :, None], below.lost)
@@ -276,5 +283,5 @@ def _through_surface(parts: list[Optics], below: Below) -> np.ndarray:
 def _solved(around: np.ndarray, returned: np.ndarray, lost: np.ndarray) -> Below:
     """The sum over all times that light goes around, of what comes after; one solution for both."""
     unit = (1.0 + LEAK) * np.eye(around.shape[1])
-    found = np.linalg.solve(unit - around, np.concatenate([returned, lost[:, :, None]], axis=2))
-    return Below(found[:, :, :-1], found[:, :, -1])
+    solution = np.linalg.solve(unit - around, np.concatenate([returned, lost[:, :, None]], axis=2))
+    return Below(solution[:, :, :-1], solution[:, :, -1])

@@ -23,6 +23,11 @@ class Spectrum(Reflectance):
 
     wavelengths: np.ndarray
 
+    @property
+    def absorptance(self) -> np.ndarray:
+        """Share of the light that is absorbed, also in the hypodermis: what is not reflected."""
+        return 1.0 - self.total
+
 
 def spectra(
     specimens: Sequence[Specimen],
@@ -36,12 +41,12 @@ def spectra(
 
     Parameters and errors as in `spectrum`, for one angle.
     """
-    asked = [float(each) for each in wavelengths]
-    stacks = [Stack.of(each, nm, model) for each in specimens for nm in asked]
-    found = solve(stacks, float(angle), nodes)
-    shape = len(specimens), len(asked)
-    shares = found.surface, found.subsurface, found.transmittance
-    return Reflectance(*(each.reshape(shape) for each in shares))
+    row = [float(wavelength) for wavelength in wavelengths]
+    stacks = [Stack.of(specimen, nm, model) for specimen in specimens for nm in row]
+    solved = solve(stacks, float(angle), nodes)
+    shape = len(specimens), len(row)
+    shares = solved.surface, solved.subsurface, solved.transmittance
+    return Reflectance(*(share.reshape(shape) for share in shares))
 
 
 def spectrum(
@@ -76,7 +81,7 @@ def spectrum(
     >>> print(*(f"{share:.3f}" for share in spectrum.total))
     0.218 0.310 0.575
     """
-    asked = require_wavelengths(wavelengths, (model or Model()).spectra)
-    stacks = [Stack.of(specimen, each, model) for each in asked]
-    found = solve(stacks, angle, nodes)
-    return Spectrum(found.surface, found.subsurface, found.transmittance, asked)
+    model = model or Model()
+    row = require_wavelengths(wavelengths, model.spectra)
+    solved = solve([Stack.of(specimen, nm, model) for nm in row], angle, nodes)
+    return Spectrum(solved.surface, solved.subsurface, solved.transmittance, row)

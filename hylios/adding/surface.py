@@ -125,7 +125,7 @@ def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):
     crossed = np.where(fits & (beyond > 0.0), chance * (1.0 - reflectance), 0.0)
     whole = (reflected + crossed).sum(axis=(1, 2, 3), keepdims=True)
     shares = reflected / whole, crossed / whole, back, beyond
-    return tuple(each.reshape(cosine.shape[0], -1) for each in shares)
+    return tuple(share.reshape(cosine.shape[0], -1) for share in shares)
 
 
 def _edges(cosine, ratio, upright, back, beyond):

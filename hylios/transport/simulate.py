@@ -277,9 +277,8 @@ def spectrum(
     model : Model, optional
         Spectra and readings, the project's own by default.
     as_printed : bool
-        Walk as the thesis prints it (`hylios.transport.printed`), instead of sampling the same
-        distributions without waste (`hylios.transport.equivalent`, which says how nearly the
-        same): the same model, slower.
+        Walk as the thesis prints it (`hylios.transport.printed`): the same model, slower than
+        without waste (`hylios.transport.equivalent`, which says how nearly the same).
 
     Raises
     ------
@@ -301,19 +300,35 @@ def spectrum(
         ready_to_walk(Stack.of(specimen, wavelength, model), as_printed)
         for wavelength in wavelengths
     ]
-    keys = [(seed, round(wavelength * 1000)) for wavelength in wavelengths]
 
-    def piece(task: tuple[int, int]) -> tuple[int, Counts]:
-        row, first = task
-        size, key = min(CHUNK, rays - first), (*keys[row], first)
-        return row, count(stacks[row], rays=size, angle=angle, key=key, as_printed=as_printed)
+    def piece(row: int, first: int) -> Counts:
+        size, key = min(CHUNK, rays - first), (seed, round(wavelengths[row] * 1000), first)
+        return count(stacks[row], rays=size, angle=angle, key=key, as_printed=as_printed)
 
-    tasks = ((row, first) for row in range(len(stacks)) for first in range(0, rays, CHUNK))
-    counts = [Counts.none(len(PARTS)) for _ in stacks]
-    for row, counted in in_threads(piece, tasks, thread_count(threads)):
+    counts = _counted(piece, len(stacks), rays, thread_count(threads), progress)
+    return _of_counts(wavelengths, rays, counts, _absorber_shares(specimen, wavelengths, model))
+
+
+def _counted(
+    piece: Callable[[int, int], Counts],
+    rows: int,
+    rays: int,
+    threads: int,
+    progress: Progress | None,
+) -> list[Counts]:
+    """Counts of each row's rays, from pieces that begin at a ray."""
+    counts = [Counts.none(len(PARTS)) for _ in range(rows)]
+    tasks = ((row, first) for row in range(rows) for first in range(0, rays, CHUNK))
+    for row, counted in in_threads(lambda task: (task[0], piece(*task)), tasks, threads):
         counts[row] += counted
         if progress:
             progress(counted.rays)
+    return counts
+
+
+def _of_counts(
+    wavelengths: np.ndarray, rays: int, counts: list[Counts], absorber_shares: np.ndarray
+) -> Spectrum:
     left = np.array([ends.left for ends in counts]) / rays
     absorbed = np.array([ends.absorbed for ends in counts]) / rays
     return Spectrum(
@@ -324,7 +339,7 @@ def spectrum(
         transmittance=left[:, TRANSMITTED],
         absorbed=absorbed[:, 0],
         absorbed_in_melanosomes=absorbed[:, 1],
-        absorber_shares=_absorber_shares(specimen, wavelengths, model),
+        absorber_shares=absorber_shares,
         exit_counts=np.array([ends.exits for ends in counts]),
     )
 

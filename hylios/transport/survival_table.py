@@ -40,8 +40,8 @@ def quadrature(lengths: np.ndarray, points: int) -> tuple[np.ndarray, np.ndarray
     for _ in range(points):
         onwards = lengths * vectors[-1]
         diagonal.append(onwards @ vectors[-1])
-        for each in vectors:  # against all, for rounding
-            onwards = onwards - (onwards @ each) * each
+        for vector in vectors:  # against all, for rounding
+            onwards = onwards - (onwards @ vector) * vector
         beside.append(np.linalg.norm(onwards))
         vectors.append(onwards / beside[-1])
     matrix = np.diag(diagonal) + np.diag(beside[:-1], 1) + np.diag(beside[:-1], -1)
@@ -53,20 +53,20 @@ def path_lengths(aspect: float, ratio: float) -> np.ndarray:
     """Mean lengths (STREAMS * BINS,) of equally many paths, in units of the semi-minor axis."""
     lengths = np.empty(PATHS)
     means = []
-    for each in range(STREAMS):
-        walk_melanosomes(stream(0, each), (1.0, 1.0 / aspect), ratio, 1.0, False, lengths)
+    for number in range(STREAMS):
+        walk_melanosomes(stream(0, number), (1.0, 1.0 / aspect), ratio, 1.0, False, lengths)
         means.append(np.sort(lengths).reshape(BINS, -1).mean(axis=1))
     return np.concatenate(means)
 
 
 def write(path: Path = TABLE) -> None:
     """Simulate all entries and write the table, beside its place first."""
-    names = [f"{what}_{each}" for what in ("length", "weight") for each in range(POINTS)]
+    names = [f"{what}_{point}" for what in ("length", "weight") for point in range(POINTS)]
     lines = [",".join(["aspect", "ratio", *names])]
     for aspect in aspects():
         for ratio in ratios():
-            found = np.concatenate(quadrature(path_lengths(aspect, ratio), POINTS))
-            lines.append(",".join(f"{each:.8g}" for each in (aspect, ratio, *found)))
+            row = aspect, ratio, *np.concatenate(quadrature(path_lengths(aspect, ratio), POINTS))
+            lines.append(",".join(f"{value:.8g}" for value in row))
     beside = path.with_suffix(".part")
     beside.write_text("\n".join(lines) + "\n", encoding="utf-8")
     os.replace(beside, path)

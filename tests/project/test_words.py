@@ -18,12 +18,15 @@ MOST_LINES, MOST_LINES_OF_A_FUNCTION = 400, 60
 
 WELL_NAMED = (
     "hylios/*.py",
+    "hylios/adding",
+    "hylios/lab/predecessors",
     "hylios/skin",
     "hylios/spectra",
     "hylios/sun",
     "hylios/tanning",
     "hylios/table",
     "hylios/tissue",
+    "hylios/transport",
     "blender_addon/package.py",
     "examples",
     "tests/docs",
@@ -45,6 +48,8 @@ WELL_NAMED = (
 
 SHORT = (
     "hylios/*.py",
+    "hylios/adding",
+    "hylios/lab/predecessors",
     "hylios/skin",
     "hylios/spectra",
     "hylios/sun",
@@ -52,6 +57,7 @@ SHORT = (
     "hylios/table",
     "hylios/tissue",
     "examples",
+    "hylios/transport",
     "lut_builder",
     "tests/examples",
     "tests/hylios/table",

@@ -104,11 +104,11 @@ class Parameters:
     extinction: str = "decadic"
 
     def __post_init__(self):
-        for each in fields(self):
-            limits = each.metadata
+        for parameter in fields(self):
+            limits = parameter.metadata
             if limits:
-                value = getattr(self, each.name)
-                require_range(each.name, value, limits["low"], limits["high"], limits["unit"])
+                value = getattr(self, parameter.name)
+                require_range(parameter.name, value, limits["low"], limits["high"], limits["unit"])
         if self.extinction not in ("decadic", "natural"):
             raise InputError(f"extinction is {self.extinction!r}; allowed is decadic, natural.")
 
@@ -161,19 +161,15 @@ def absorption(parameters: Parameters, wavelength: float) -> np.ndarray:
     Melanin counts with the melanosomes' volume and carotene with the rest of the epidermis;
     blood counts with its volume and carotene with the whole dermis.
     """
-    known = {name: figure.at(wavelength) for name, figure in published_spectra().items()}
-    carotene = known["beta_carotene"] / BETA_CAROTENE_WEIGHT
+    at = {name: spectrum.at(wavelength) for name, spectrum in published_spectra().items()}
+    carotene = at["beta_carotene"] / BETA_CAROTENE_WEIGHT
     oxygenated = 0.01 * parameters.oxygenated
-    haemoglobin = (
-        oxygenated * known["oxyhemoglobin"] + (1.0 - oxygenated) * known["deoxyhemoglobin"]
-    )
+    haemoglobin = oxygenated * at["oxyhemoglobin"] + (1.0 - oxygenated) * at["deoxyhemoglobin"]
     blood = (
         haemoglobin * parameters.haemoglobin / HEMOGLOBIN_WEIGHT
-        + known["bilirubin"] * parameters.bilirubin / BILIRUBIN_WEIGHT
+        + at["bilirubin"] * parameters.bilirubin / BILIRUBIN_WEIGHT
     )
-    melanin = (
-        known["eumelanin"] * parameters.eumelanin + known["pheomelanin"] * parameters.pheomelanin
-    )
+    melanin = at["eumelanin"] * parameters.eumelanin + at["pheomelanin"] * parameters.pheomelanin
     melanosomes = 0.01 * parameters.melanosomes
     extinction = np.array(
         [
@@ -323,15 +319,15 @@ def reflectance(
     RuntimeError
         If a ray was lost between the layers.
     """
-    asked = np.atleast_1d(np.asarray(wavelengths, dtype=float))
-    for each in asked:
-        require_range("wavelength", each, 380.0, 780.0, "nm")
+    row = np.atleast_1d(np.asarray(wavelengths, dtype=float))
+    for wavelength in row:
+        require_range("wavelength", wavelength, 380.0, 780.0, "nm")
     require_range("angle of incidence", angle, 0.0, 89.99, "degrees")
     rays = require_whole("number of rays", rays, 1, 10**10)
     seed = require_whole("seed", seed, 0, 2**63)
     radians = np.radians(angle)
-    counts = np.zeros((asked.size, LOST + 1), np.int64)
-    for wavelength, ends in zip(asked, counts, strict=True):
+    counts = np.zeros((row.size, LOST + 1), np.int64)
+    for wavelength, ends in zip(row, counts, strict=True):
         walk(
             _layers(parameters, wavelength),
             scattering_angles(wavelength),

@@ -62,8 +62,8 @@ class Parameters:
 
     def __post_init__(self):
         highest = {"melanin": 0.5, "haemoglobin": 0.1}
-        for each in fields(self):
-            require_range(each.name, getattr(self, each.name), 0.0, highest.get(each.name, 1.0))
+        for name in (field.name for field in fields(self)):
+            require_range(name, getattr(self, name), 0.0, highest.get(name, 1.0))
 
 
 NCSU_117 = Parameters(melanin=0.017, eumelanin_share=0.0, haemoglobin=0.0038)
@@ -110,14 +110,14 @@ def media(parameters: Parameters, wavelengths: Iterable[float] | float) -> tuple
         If a wavelength lies outside 380 to 780 nm.
     """
     length = np.atleast_1d(np.asarray(wavelengths, dtype=float))
-    for each in length:
-        require_range("wavelength", each, 380.0, 780.0, "nm")
-    known = published_spectra()
+    for wavelength in length:
+        require_range("wavelength", wavelength, 380.0, 780.0, "nm")
+    spectra = published_spectra()
     eumelanin = 6.6e10 * length**-3.33
     pheomelanin = 2.9e14 * length**-4.75
     baseline = 0.0244 + 8.53 * np.exp(-(length - 154.0) / 66.2)
-    molar = OXYGENATION * known["oxyhemoglobin"].at(length)
-    molar = molar + (1.0 - OXYGENATION) * known["deoxyhemoglobin"].at(length)
+    molar = OXYGENATION * spectra["oxyhemoglobin"].at(length)
+    molar = molar + (1.0 - OXYGENATION) * spectra["deoxyhemoglobin"].at(length)
     blood = 0.1 * np.log(10.0) * molar * HAEMOGLOBIN / HAEMOGLOBIN_WEIGHT
     share = parameters.eumelanin_share
     melanin = share * eumelanin + (1.0 - share) * pheomelanin
@@ -298,8 +298,8 @@ def profile(parameters: Parameters, wavelength: float, radii: Iterable[float]) -
         If the wavelength (nm) or a radius (0 to 50 mm) is out of range.
     """
     distances = np.asarray(radii, dtype=float)
-    for each in distances:
-        require_range("radius", each, 0.0, 50.0, "mm")
+    for distance in distances:
+        require_range("radius", distance, 0.0, 50.0, "mm")
     epidermis, dermis = media(parameters, wavelength)
     highest = REACH / float(epidermis.mean_free_path[0])
     return inverse_hankel(partial(two_layers, epidermis, dermis), highest, distances)

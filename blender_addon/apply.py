@@ -44,8 +44,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         )
     replaced = nodes.update(skin.group, sampled)
     said = skin.attach(obj)
-    for former, image in replaced.items():
-        images.replace(former, image, skin.users, obj)
+    images.replace(replaced, skin.users, obj)
     return " ".join([said, *_remarks(skin, values, tan)])
 
 

@@ -1,5 +1,6 @@
 """Float images that carry a table of numbers inside the .blend."""
 
+from collections.abc import Mapping
 from typing import Any, cast
 
 import bpy
@@ -76,12 +77,18 @@ def set_colour_space(image: bpy.types.Image, *, is_colour: bool) -> None:
 
 
 def replace(
-    former: bpy.types.Image, image: bpy.types.Image, users: Users, obj: bpy.types.Object
+    replaced: Mapping[bpy.types.Image, bpy.types.Image], users: Users, obj: bpy.types.Object
 ) -> None:
-    """Put an image in place of an object's former one, and remove that if no other shows it."""
-    if not former.get(MARK) or former.library or users.others(former, obj):
-        return
-    name = former.name
-    former.user_remap(image)
-    bpy.data.images.remove(former)
-    image.name = name
+    """Remove an object's former images that no other shows; the new ones get their names."""
+    former = {
+        image: image.name
+        for image in replaced
+        if image.get(MARK) and image.library is None and not users.others(image, obj)
+    }
+    for image in former:
+        if image.users > image.use_fake_user:  # nodes of the artist's own show it
+            image.user_remap(replaced[image])
+    names = {replaced[image]: name for image, name in former.items()}
+    bpy.data.batch_remove(former)
+    for image, name in names.items():
+        image.name = name

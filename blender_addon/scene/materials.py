@@ -40,7 +40,8 @@ class Skin:
         for block in self._chain:
             _repoint(_tree(self._copies.get(block, block)), self._copies)
         settings = remembered(obj)
-        settings.group, settings.material = self.group, self.material
+        if (settings.group, settings.material) != (self.group, self.material):
+            settings.group, settings.material = self.group, self.material
         slots = [slot for slot in obj.material_slots if slot.material in self._chain]
         for slot in slots:
             if slot.material in self._copies:

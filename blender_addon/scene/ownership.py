@@ -40,7 +40,7 @@ class Users:
     """What uses what in the file, as it was when this was made."""
 
     def __init__(self) -> None:
-        self._users = bpy.data.user_map()
+        self._users = bpy.data.user_map(key_types={"IMAGE", "MATERIAL", "MESH", "NODETREE"})
 
     def others(self, block: bpy.types.ID, obj: bpy.types.Object) -> set[bpy.types.ID]:
         """Objects besides one, worlds and the like, that show a data-block.
@@ -58,15 +58,15 @@ class Users:
                 elif isinstance(user, bpy.types.Material | bpy.types.NodeTree):
                     seen.add(user)
                     waiting.append(user)
-                elif isinstance(used, bpy.types.Material) and hasattr(user, "materials"):
+                elif isinstance(used, bpy.types.Material) and isinstance(user, bpy.types.Mesh):
                     others |= self._showing(user, used) - {obj}
                 else:
                     others.add(user)
         return others
 
-    def _showing(self, data: bpy.types.ID, material: bpy.types.Material) -> set[bpy.types.ID]:
-        """Objects of a mesh, or of other data with materials, that have a material in a slot."""
-        objects = (user for user in self._users[data] if isinstance(user, bpy.types.Object))
+    def _showing(self, mesh: bpy.types.Mesh, material: bpy.types.Material) -> set[bpy.types.ID]:
+        """Objects of a mesh that have a material in a slot."""
+        objects = (user for user in self._users[mesh] if isinstance(user, bpy.types.Object))
         return {user for user in objects if _has_in_slot(user, material)}
 
 

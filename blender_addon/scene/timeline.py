@@ -34,7 +34,7 @@ def key_days(
     other objects with the same action: this one gets a copy.
     """
     action, slot = _own_action(obj, blocks)
-    curve = _curve(action, slot)
+    curve, is_new = _curve(action, slot)
     curve.keyframe_points.clear()
     curve.keyframe_points.add(len(days))
     for key, day, frame in zip(curve.keyframe_points, days, frames, strict=True):
@@ -44,10 +44,13 @@ def key_days(
     obj[DAY_PROPERTY] = curve.evaluate(scene.frame_current_final)
     cast(Any, obj).id_properties_ui(DAY_PROPERTY).update(description="Day of the tan", precision=2)
     animation = obj.animation_data or obj.animation_data_create()
-    # A new assignment has Blender sort out anew what follows what; without, a strip of the NLA
-    # would go on covering the action.
-    animation.action = action
-    animation.action_slot = slot
+    if is_new or (animation.action, animation.action_slot) != (action, slot):
+        # The assignment has Blender sort out anew what follows what, which takes long in a large
+        # scene; without, a strip of the NLA would go on covering a new action.
+        animation.action = action
+        animation.action_slot = slot
+    action.update_tag()
+    obj.update_tag()
 
 
 def _own_action(
@@ -67,10 +70,12 @@ def _own_action(
     return action, slot or action.slots.new(id_type="OBJECT", name=obj.name)
 
 
-def _curve(action: bpy.types.Action, slot: bpy.types.ActionSlot) -> bpy.types.FCurve:
+def _curve(action: bpy.types.Action, slot: bpy.types.ActionSlot) -> tuple[bpy.types.FCurve, bool]:
+    """The curve of the day, and whether it is new."""
     bag = action_get_channelbag_for_slot(action, slot)
     if bag is None:
         layer = action.layers[0] if action.layers else action.layers.new("Layer")
         strip: Any = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
         bag = strip.channelbag(slot, ensure=True)
-    return bag.fcurves.find(DATA_PATH) or bag.fcurves.new(DATA_PATH)
+    curve = bag.fcurves.find(DATA_PATH)
+    return curve or bag.fcurves.new(DATA_PATH), curve is None

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from hylios.errors import require_range
 from hylios.skin.specimen import EPIDERMIS, Specimen
 from hylios.tissue.absorbers import PARTS, absorbers
 from hylios.tissue.melanosomes import melanosomes, scattering_angle
@@ -17,6 +18,13 @@ from hylios.tissue.readings import complete_readings
 
 REFERENCE_NM = 1300.0
 """Wavelength at which the refractive indices of table 6.2 were measured."""
+
+MOST_ABSORPTION = 1e20
+"""Absorption coefficient in 1/cm up to which layers are made: beyond all matter, and such that
+solvers can add up and multiply. Spectra of one's own may be anything."""
+
+INDICES = 0.1, 10.0
+"""Refractive indices with which layers are made."""
 
 FIBRE_RADIUS, FIBRE_VOLUME, FIBRE_INDEX_RATIO = 100e-7, 0.22, 1.127
 """Connective fibres of the papillary dermis: radius in cm, volume fraction, eta (section 4.2.2)."""
@@ -96,8 +104,9 @@ class Stack:
         Raises
         ------
         InputError
-            If the wavelength lies outside the spectra, or a layer is too thin for the melanosomes
-            in it, or so thick, full and clear that a ray would hardly ever end.
+            If the wavelength lies outside the spectra, an absorption coefficient or refractive
+            index that follows from them is out of range, or a layer is too thin for the
+            melanosomes in it, or so thick, full and clear that a ray would hardly ever end.
         """
         model = model or Model()
         absorption = {
@@ -126,9 +135,14 @@ def _layer(
     elif part == "papillary":
         denominator = model.readings["rayleigh_denominator"]
         scatterers = {"rayleigh": rayleigh_coefficient(wavelength, denominator)}
+    index = refractive_index(specimen, part, wavelength, model)
+    inside = scatterers.get("melanin_absorption", 0.0)
+    require_range(f"absorption coefficient of {part}", absorption, 0.0, MOST_ABSORPTION, "1/cm")
+    require_range("absorption coefficient of melanin", inside, 0.0, MOST_ABSORPTION, "1/cm")
+    require_range(f"refractive index of {part}", index, *INDICES)
     return Layer(
         thickness=getattr(specimen, f"{part}_thickness"),
-        refractive_index=refractive_index(specimen, part, wavelength, model),
+        refractive_index=index,
         absorption=absorption,
         **scatterers,
     )

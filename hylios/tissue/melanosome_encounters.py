@@ -42,7 +42,7 @@ LEFT_OUT = {"complexes": 1.004, "single": 1.003}
 Fitted to walks at 13 wavelengths, 250 to 2500 nm (`examples.agreement`), with 1e7 rays of S1 to S3
 and their tans, and with 1e7 or 1e6 of S4, type VI and their tans. With them the rms difference, the
 walk's noise taken off, falls from 3.1e-4 to 2.2e-4 for complexes; for single melanosomes it stays
-at 2.8e-4, for S4 itself wants 1.012 and its tans want 1."""
+at 2.8e-4: the best factor is 1.012 for S4 but 1 for its tans."""
 
 PAIRS = 4096
 """Pairs of melanosomes over which the dead length is averaged."""

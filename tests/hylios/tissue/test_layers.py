@@ -2,11 +2,13 @@
 
 import csv
 import io
+from dataclasses import replace
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
+from hylios.errors import InputError
 from hylios.skin.specimen import SPECIMENS
 from hylios.spectra import published_spectra
 from hylios.tissue import Model, Stack
@@ -117,3 +119,23 @@ def test_absorption_of_every_layer_by_hand(name, wavelength):
     layers = Stack.of(SPECIMENS[name], float(wavelength)).layers
     assert [layer.absorption for layer in layers] == pytest.approx(expected, rel=1e-9)
     assert [layer.melanin_absorption for layer in layers[1:4]] == pytest.approx([melanin] * 3)
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("water", "absorption coefficient of corneum is .* 1/cm; allowed is 0 to 1e\\+20 1/cm"),
+        (
+            "eumelanin",
+            "absorption coefficient of granulosum is .* 1/cm; allowed is 0 to 1e\\+20 1/cm",
+        ),
+        ("water_refractive_index", "refractive index of corneum is .*; allowed is 0.1 to 10"),
+    ],
+)
+def test_absurd_spectra_of_one_s_own_are_refused_where_layers_are_made(name, sentence):
+    """At 1e300 the walk gave a reflectance of 1, and the solver's eigenvalues did not converge."""
+    published = published_spectra()[name]
+    values = np.geomspace(1.0, 1e300, published.values.size)
+    absurd = replace(published, values=values)
+    with pytest.raises(InputError, match=sentence):
+        Stack.of(SPECIMENS["S3"], 2500.0, Model(spectra={name: absurd}))

@@ -1,6 +1,6 @@
 """Running units of work wherever they are to run, each kept as soon as it is done.
 
-Only the process that asked for the work writes files: a unit's results come to it as bytes, it
+Only the process that started the work writes files: a unit's results come to it as bytes, it
 keeps them in the folder of the unfinished work, and a later run goes on from there.
 
     with unfinished(target, (".exr",), resume=True, replace=False) as work:

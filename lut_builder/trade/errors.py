@@ -84,8 +84,8 @@ def noise_share(runs: Sequence[Sequence[Run]], fine: np.ndarray) -> float:
     falls = []
     for some in runs:
         squares = [root_mean_square(share_errors(run.widths, fine)) ** 2 for run in some]
-        squared = [run.error**2 for run in some]
-        falls.append((squares[0] - squares[-1]) / (squared[0] - squared[-1]))
+        aimed_at = [run.error**2 for run in some]
+        falls.append((squares[0] - squares[-1]) / (aimed_at[0] - aimed_at[-1]))
     return max(float(np.median(falls)), 0.0)
 
 
@@ -139,4 +139,5 @@ def _profile_error(run: Run, fine: FineProfiles) -> ProfileError:
 
 
 def root_mean_square(values: np.ndarray) -> float:
+    """Of all values together."""
     return float(np.sqrt(np.mean(np.square(values))))

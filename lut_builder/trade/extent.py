@@ -14,7 +14,7 @@ BROAD = np.arange(250.0, 2501.0, 25.0)
 
 COMPONENTS = (1, 2, 3, 4, 8)
 
-BASE_WAVELENGTHS, BASE_INTERPOLATION = 8, "pchip"
+BASE_WAVELENGTHS = 8
 """Of the colours where something else is varied."""
 
 SECONDS_EACH = 1.5e-3

@@ -23,7 +23,7 @@ from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, phototype
 from hylios.skin.specimen import SPECIMENS, Specimen
 from hylios.transport.simulate import MOST_RAYS, Progress, spectrum
-from lut_builder.axes import reachable_states
+from lut_builder.reachable import reachable_states
 
 WAVELENGTHS = np.array(
     [250.0, 290.0, 320.0, 365.0, 420.0, 470.0, 545.0, 600.0, 700.0, 900.0, 1200.0, 1650.0, 2500.0]

@@ -15,11 +15,11 @@ from hylios.skin.specimen import Specimen
 from hylios.spectra import estimates_within
 from hylios.table import SkinTable, described_dynamics
 from hylios.tissue import SPECTRA, Model
-from lut_builder.axes import choose_axes, needed_knots
 from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
 from lut_builder.jobs.units import Unit
 from lut_builder.own_spectra import described_spectra
+from lut_builder.reachable import choose_axes, needed_knots
 from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelengths
 from lut_builder.settings import Settings
 
@@ -50,7 +50,7 @@ def requested(
     Raises
     ------
     InputError
-        If the skin has a layer without melanin (`lut_builder.axes.untanned_state`).
+        If the skin has a layer without melanin (`lut_builder.reachable.untanned_state`).
     """
     whole = axes = choose_axes(skin, settings.knots)
     states, needed, within = axes.knot_states(), np.ones(axes.shape, bool), None

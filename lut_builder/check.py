@@ -14,8 +14,8 @@ from hylios.spectra import Spectra
 from hylios.table import SkinTable, skin_of
 from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.axes import reachable_states
 from lut_builder.own_spectra import require_own_spectra
+from lut_builder.reachable import reachable_states
 from lut_builder.request import ANGLE
 
 FINE = np.arange(400.0, 701.0, 5.0)

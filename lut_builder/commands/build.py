@@ -122,11 +122,11 @@ def build_table(arguments: argparse.Namespace) -> None:
     # numba, colour-science and OpenImageIO take a second or more.
     from hylios.history import read_schedule
     from lut_builder.assemble import assembled, requested, units
-    from lut_builder.axes import reached_states
     from lut_builder.commands.resumable import resumable
     from lut_builder.exr_writer import write_table
     from lut_builder.jobs.run import run_units
     from lut_builder.jobs.software import software_digest
+    from lut_builder.reachable import reached_states
 
     reached = None
     if arguments.schedule is not None:

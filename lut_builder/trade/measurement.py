@@ -7,7 +7,7 @@ fine solution at reachable states that are no knots.
 What is not measured for each combination: another number of the solver's directions moves a
 reflectance by what hardly depends on the state, so that shift is measured at the states looked up
 and added there (on the coarsest tables that misses the largest error by 2 %); a profile that would
-take too long follows from the same table's less accurate ones (`errors.completed`).
+take too long follows from the same table's less accurate ones (`table_errors.completed`).
 """
 
 import platform
@@ -21,13 +21,6 @@ import numpy as np
 
 from hylios.skin import Skin
 from lut_builder.settings import BANDS_NM, Settings
-from lut_builder.trade.errors import (
-    ColourError,
-    ProfileError,
-    colour_errors,
-    completed,
-    noise_share,
-)
 from lut_builder.trade.extent import FULL, Extent
 from lut_builder.trade.pareto import front
 from lut_builder.trade.parts import (
@@ -41,6 +34,13 @@ from lut_builder.trade.parts import (
 from lut_builder.trade.points import Point
 from lut_builder.trade.single import Cost, FineProfiles, between_knots
 from lut_builder.trade.steps import planned
+from lut_builder.trade.table_errors import (
+    ColourError,
+    ProfileError,
+    colour_errors,
+    completed,
+    noise_share,
+)
 
 
 @dataclass(frozen=True)

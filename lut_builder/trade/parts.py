@@ -10,7 +10,6 @@ from hylios.lab.colour import difference
 from hylios.quadrature import skin_quadrature
 from hylios.table import INTERPOLATIONS
 from lut_builder.check import FINE
-from lut_builder.trade.errors import ColourError, ProfileError
 from lut_builder.trade.extent import (
     BASE_WAVELENGTHS,
     BROAD,
@@ -20,6 +19,7 @@ from lut_builder.trade.extent import (
     table_wavelengths,
 )
 from lut_builder.trade.single import Cost, colours, component_errors, regions
+from lut_builder.trade.table_errors import ColourError, ProfileError
 
 Row = dict[str, Any]
 """One setting of one thing that is traded, with `COLUMNS`; empty where one says nothing."""

@@ -25,8 +25,8 @@ from hylios.transport.shared_profiles import LEAST_LIGHT, skin_profiles
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.assemble import assembled, channel_widths, requested
-from lut_builder.axes import choose_axes, reachable_states
 from lut_builder.exr_writer import write_table
+from lut_builder.reachable import choose_axes, reachable_states
 from lut_builder.request import ANGLE, STATES_TOGETHER, computed, pieces
 from lut_builder.settings import Settings
 

@@ -9,7 +9,7 @@ import numpy as np
 from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
-from lut_builder.axes import choose_axes
+from lut_builder.reachable import choose_axes
 from lut_builder.settings import MOST_PROFILE_ERROR, Settings
 from lut_builder.trade.extent import (
     BASE_WAVELENGTHS,

@@ -12,8 +12,8 @@ from hylios.skin.phototypes import phototype
 from hylios.table import from_stored, to_stored
 from hylios.tanning import Exposures
 from lut_builder.assemble import build, requested
-from lut_builder.axes import choose_axes, reachable_states, reached_states, untanned_state
 from lut_builder.check import check
+from lut_builder.reachable import choose_axes, reachable_states, reached_states, untanned_state
 from lut_builder.request import ANGLE, pieces
 from lut_builder.scene_axes import NEAR, farthest, laid_over
 from lut_builder.settings import Settings

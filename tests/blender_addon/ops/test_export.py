@@ -15,8 +15,8 @@ from hylios.sun.doses import of_sed
 from hylios.table import from_stored, to_stored
 from hylios.tanning import Exposures
 from lut_builder.assemble import build
-from lut_builder.axes import reached_states
 from lut_builder.exr_writer import write_table
+from lut_builder.reachable import reached_states
 from lut_builder.settings import Settings
 
 SKIN = phototype("III").skin

@@ -10,7 +10,6 @@ from hylios.skin.specimen import SPECIMENS
 from lut_builder.assemble import build
 from lut_builder.check import FINE
 from lut_builder.settings import Settings
-from lut_builder.trade.errors import completed, noise_share
 from lut_builder.trade.extent import BROAD, QUICK
 from lut_builder.trade.measurement import measure
 from lut_builder.trade.points import Point, read_points, write_points
@@ -25,6 +24,7 @@ from lut_builder.trade.single import (
     regions,
     share_errors,
 )
+from lut_builder.trade.table_errors import completed, noise_share
 
 S3 = Skin.of(SPECIMENS["S3"])
 

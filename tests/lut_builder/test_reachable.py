@@ -7,7 +7,7 @@ from hylios.errors import InputError
 from hylios.skin import Skin
 from hylios.skin.phototypes import phototype
 from hylios.skin.specimen import SPECIMENS
-from lut_builder.axes import choose_axes, reachable_states, untanned_state
+from lut_builder.reachable import choose_axes, reachable_states, untanned_state
 
 
 @pytest.mark.parametrize(

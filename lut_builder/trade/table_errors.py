@@ -13,8 +13,8 @@ from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.table import INTERPOLATIONS
 from hylios.table.interpolation import interpolate
-from lut_builder.axes import choose_axes
 from lut_builder.check import FINE
+from lut_builder.reachable import choose_axes
 from lut_builder.settings import BANDS_NM
 from lut_builder.trade.extent import Extent, fine_wavelengths, table_wavelengths
 from lut_builder.trade.single import FineProfiles, Run, colours, lightness_lost, share_errors

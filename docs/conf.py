@@ -23,7 +23,10 @@ exclude_patterns = ["README.md"]
 nitpicky = False
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"  # the docstrings say types with their shapes and units
+autodoc_preserve_defaults = True
+# The docstrings say the types of parameters, with shapes and units; the hints add what comes back.
+autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented_params"
 numpydoc_show_class_members = False
 default_role = "code"
 highlight_language = "none"  # most blocks are shells; Python says so

@@ -14,13 +14,8 @@ from hylios.tanning.dynamics import (
     minimal_melanogenesis_dose,
 )
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
-from hylios.tanning.simulation import (
-    TanningHistory,
-    hill,
-    simulate,
-    simulate_in_parts,
-    states_at,
-)
+from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
+from hylios.tanning.tanning_history import TanningHistory
 
 __all__ = [
     "LARGEST_DOSE",

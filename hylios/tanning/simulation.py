@@ -5,7 +5,6 @@ dose acts. Arrays inside are (BLOCK, blocks, histories), as `recurrence` lays ti
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
@@ -22,6 +21,7 @@ from hylios.tanning.recurrence import (
     previous,
     where,
 )
+from hylios.tanning.tanning_history import TanningHistory
 
 LONGEST_STEP = 24
 FINEST_STEP = 1.0 / 60.0
@@ -29,41 +29,6 @@ FINEST_STEP = 1.0 / 60.0
 
 CELLS_TOGETHER = 2**18
 """Hours times histories that are computed at once, for memory and for the processor's cache."""
-
-
-@dataclass(frozen=True)
-class TanningHistory:
-    """State of the skin over time.
-
-    Attributes
-    ----------
-    hours : (T,) array
-    melanin : (..., T, 3) float array
-        Melanin of basale, spinosum, granulosum relative to the total at hour 0.
-    thickness : (..., T) float array
-        Thickness of the skin relative to hour 0 (5.29).
-
-    Examples
-    --------
-    >>> import hylios
-    >>> history = hylios.skin_type("IV").history(hylios.Exposures([0], [30]), hours=720)
-    >>> print(f"darkest on day {history.hours[history.total.argmax()] / 24:.0f}")
-    darkest on day 11
-    """
-
-    hours: np.ndarray
-    melanin: np.ndarray
-    thickness: np.ndarray
-
-    @property
-    def total(self) -> np.ndarray:
-        """Melanin of all layers relative to hour 0, shape (..., T) (5.14)."""
-        return self.melanin.sum(axis=-1)
-
-    @property
-    def states(self) -> np.ndarray:
-        """Melanin of the three layers and thickness side by side, shape (..., T, 4)."""
-        return np.concatenate([self.melanin, self.thickness[..., None]], axis=-1)
 
 
 def simulate(

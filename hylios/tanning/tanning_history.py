@@ -1,0 +1,40 @@
+"""What a simulation of the tanning skin gives: its state over time."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class TanningHistory:
+    """State of the skin over time.
+
+    Attributes
+    ----------
+    hours : (T,) array
+    melanin : (..., T, 3) float array
+        Melanin of basale, spinosum, granulosum relative to the total at hour 0.
+    thickness : (..., T) float array
+        Thickness of the skin relative to hour 0 (5.29).
+
+    Examples
+    --------
+    >>> import hylios
+    >>> history = hylios.skin_type("IV").history(hylios.Exposures([0], [30]), hours=720)
+    >>> print(f"darkest on day {history.hours[history.total.argmax()] / 24:.0f}")
+    darkest on day 11
+    """
+
+    hours: np.ndarray
+    melanin: np.ndarray
+    thickness: np.ndarray
+
+    @property
+    def total(self) -> np.ndarray:
+        """Melanin of all layers relative to hour 0, shape (..., T) (5.14)."""
+        return self.melanin.sum(axis=-1)
+
+    @property
+    def states(self) -> np.ndarray:
+        """Melanin of the three layers and thickness side by side, shape (..., T, 4)."""
+        return np.concatenate([self.melanin, self.thickness[..., None]], axis=-1)

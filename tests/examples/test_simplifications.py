@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -199,7 +198,10 @@ def test_ctrl_c_leaves_the_page_alone(tmp_path):
     running = subprocess.Popen(
         command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True
     )
-    time.sleep(12.0)
+    shown = ""
+    while "| 1/" not in shown:  # the kernels are compiled, and it measures
+        shown += running.stderr.read(1)
+        assert running.poll() is None
     running.send_signal(signal.SIGINT)
     _, said = running.communicate(timeout=60.0)
     assert running.returncode == 130

@@ -137,9 +137,10 @@ def _layer(
         scatterers = {"rayleigh": rayleigh_coefficient(wavelength, denominator)}
     index = refractive_index(specimen, part, wavelength, model)
     inside = scatterers.get("melanin_absorption", 0.0)
-    require_range(f"absorption coefficient of {part}", absorption, 0.0, MOST_ABSORPTION, "1/cm")
-    require_range("absorption coefficient of melanin", inside, 0.0, MOST_ABSORPTION, "1/cm")
-    require_range(f"refractive index of {part}", index, *INDICES)
+    if not (absorption <= MOST_ABSORPTION >= inside and INDICES[0] <= index <= INDICES[1]):
+        require_range(f"absorption coefficient of {part}", absorption, 0.0, MOST_ABSORPTION, "1/cm")
+        require_range("absorption coefficient of melanin", inside, 0.0, MOST_ABSORPTION, "1/cm")
+        require_range(f"refractive index of {part}", index, *INDICES)
     return Layer(
         thickness=getattr(specimen, f"{part}_thickness"),
         refractive_index=index,

@@ -59,7 +59,7 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
     if obj is None:
         raise InputError("No object is active; select a mesh object.")
     if obj.type != "MESH":
-        raise InputError(f"{obj.name!r} is a {obj.type.lower()} object; allowed is a mesh.")
+        raise InputError(f"{obj.name!r} is of type {obj.type}; select a mesh object.")
     action = obj.animation_data.action if obj.animation_data else None
     for block, what in ((obj, "object"), (obj.data, "mesh of"), (action, "animation of")):
         if block is not None and not is_local(block):
@@ -101,7 +101,7 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float, blocks: NewBlocks) ->
 def _remarks(skin: materials.Skin, values: TanSettings, tan: Tan) -> list[str]:
     remarks = []
     if skin.others:
-        remarks.append(f"{names(skin.others)} keeps the former one.")
+        remarks.append(f"The skin on {names(skin.others)} stays as it was.")
     removed = nodes.missing_roles(skin.group)
     if removed:
         remarks.append(
@@ -112,5 +112,5 @@ def _remarks(skin: materials.Skin, values: TanSettings, tan: Tan) -> list[str]:
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")
     if tan.profile_width is None:
-        remarks.append("Its table has no profile: no subsurface.")
+        remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks

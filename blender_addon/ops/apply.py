@@ -11,7 +11,9 @@ from .active import active_object, current_scene
 class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.apply"
     bl_label = "Apply Tan"
-    bl_description = "Make the skin of the active object tan over the timeline, as set above"
+    bl_description = (
+        "Give the active object skin that tans over the timeline, by the settings of this panel"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context):

@@ -24,7 +24,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     unit: EnumProperty(
         name="Given as",
-        description="How the amount of sun is given",
+        description="Unit of the exposure: a dose, or hours under a UV index or the sun of a date",
         items=UNITS,
         default="SED",
     )
@@ -71,18 +71,18 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     latitude: FloatProperty(
         name="Latitude",
-        description="Of the place in degrees, north positive",
+        description="Latitude of the place in degrees, negative south of the equator",
         default=40.0,
         min=-90.0,
         max=90.0,
         step=100,
         precision=1,
     )
-    month: IntProperty(name="Month", description="Of the year", default=7, min=1, max=12)
-    day_of_month: IntProperty(name="Day", description="Of the month", default=15, min=1, max=31)
+    month: IntProperty(name="Month", description="Month of the year", default=7, min=1, max=12)
+    day_of_month: IntProperty(name="Day", description="Day of the month", default=15, min=1, max=31)
     from_hour: FloatProperty(
         name="From",
-        description="Hour of the day by the sun, which stands highest at 12",
+        description="Start, in hours of solar time: the sun stands highest at 12",
         default=11.0,
         min=0.0,
         max=24.0,
@@ -91,7 +91,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     to_hour: FloatProperty(
         name="To",
-        description="Hour of the day by the sun, which stands highest at 12",
+        description="End, in hours of solar time: the sun stands highest at 12",
         default=15.0,
         min=0.0,
         max=24.0,

@@ -36,13 +36,13 @@ def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
 class SkinTanSettings(bpy.types.PropertyGroup):
     skin: EnumProperty(
         name="Skin",
-        description="Which skin it is that tans",
+        description="Skin type or specimen whose table is used",
         items=SKIN_ITEMS,
         default=USUAL_SKIN,
     )
     table_path: StringProperty(
         name="Table",
-        description="Skin table to use, an EXR file",
+        description="File of a skin table (EXR), as lut-builder makes it",
         subtype="FILE_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
     )
@@ -85,8 +85,8 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})
     mask_attribute: StringProperty(
         name="Sun Mask",
-        description="Attribute of the mesh with the share of the dose that reaches each point: "
-        "0 is covered, 1 is bare. Without one the whole body is bare",
+        description="Float attribute that says how much of the sun reaches each point: "
+        "0 is covered, 1 is bare. Without one, the whole body is bare",
     )
     first_day: FloatProperty(
         name="First Day",

@@ -186,7 +186,7 @@ def test_no_object():
 
 def test_not_a_mesh():
     bpy.ops.object.empty_add()
-    refused("'Empty' is a empty object; allowed is a mesh")
+    refused("'Empty' is of type EMPTY; select a mesh object")
 
 
 def test_linked_objects_are_refused(body, tmp_path):

@@ -133,7 +133,7 @@ def test_a_material_given_to_another_object_stays_as_it_was(body, capfd):
     body.skin_tan.exposures[0].dose = 8.0
     apply(body)
     assert look(hands) == before != look(body)
-    assert "'Hands' keeps the former one." in capfd.readouterr().out
+    assert "The skin on 'Hands' stays as it was." in capfd.readouterr().out
 
 
 def test_a_world_that_shows_the_group_stays_as_it_was(body):

@@ -158,7 +158,7 @@ def test_a_scene_s_table_holds_no_more_than_it_should():
     reached = scene(skin, "a week")
     table = from_stored(to_stored(build(skin, COLOURS, reached=reached), half=True))
     assert table.holds(reached).all()
-    others = some(reachable_states(skin, 60, seed=8), skin, 150)
+    others = some(reachable_states(skin, 60, seed=8), skin, 400)
     held = table.holds(others)
     assert 0.02 < held.mean() < 0.6
     off = difference(table.plane("total_colour", others), colours(skin, others))

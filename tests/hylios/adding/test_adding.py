@@ -29,7 +29,7 @@ OWN_ERROR = 0.0005
 
 
 def stacks(specimen, wavelengths=WAVELENGTHS, **arguments):
-    return [with_survival(Stack.of(specimen, each, **arguments)) for each in wavelengths]
+    return [with_survival(Stack.of(specimen, nm, **arguments)) for nm in wavelengths]
 
 
 ARRANGEMENTS = ("individual", "complexes", "compact_complexes")
@@ -37,7 +37,7 @@ ARRANGEMENTS = ("individual", "complexes", "compact_complexes")
 
 def without_absorbers(layers: Stack, **changes) -> Stack:
     clear = {"absorption": 0.0, "melanin_absorption": 0.0, **changes}
-    return replace(layers, layers=tuple(replace(each, **clear) for each in layers.layers))
+    return replace(layers, layers=tuple(replace(layer, **clear) for layer in layers.layers))
 
 
 def clear_stacks(name, arrangements):
@@ -98,7 +98,7 @@ def slab_over_floor(angle, index, optical_thickness, roots=400):
     cosine = np.array([[0.0], [critical]]) + 0.5 * widths * (1.0 + half)
     cosine, weight = cosine.ravel(), (0.5 * widths * weight).ravel()
     passed = np.exp(-optical_thickness / cosine)
-    mirrored = np.array([fresnel(each, index, 1.0)[0] for each in cosine])
+    mirrored = np.array([fresnel(one, index, 1.0)[0] for one in cosine])
     spread = 2.0 * cosine * weight
     back = (spread * passed**2 * mirrored).sum()
     out = (spread * passed * (1.0 - mirrored)).sum()
@@ -109,18 +109,18 @@ def slab_over_floor(angle, index, optical_thickness, roots=400):
 @pytest.mark.parametrize("optical_thickness", [0.01, 0.7])
 def test_absorber_between_fresnel_faces_over_a_diffuse_floor(angle, optical_thickness):
     layer = Layer(thickness=0.1, refractive_index=1.4, absorption=10.0 * optical_thickness)
-    found = solve([Stack((layer,), lambertian_floor=True)], angle)
+    solved = solve([Stack((layer,), lambertian_floor=True)], angle)
     surface, subsurface = slab_over_floor(angle, 1.4, optical_thickness)
-    assert found.surface[0] == pytest.approx(surface, abs=1e-12)
-    assert found.subsurface[0] == pytest.approx(subsurface, abs=1e-5)
+    assert solved.surface[0] == pytest.approx(surface, abs=1e-12)
+    assert solved.subsurface[0] == pytest.approx(subsurface, abs=1e-5)
 
 
 @pytest.mark.parametrize("share", [1.0, 0.6, 0.0])
 def test_absorber_without_index_step_over_a_diffuse_floor(share):
     layers = tuple(Layer(thickness=0.1, refractive_index=1.0, absorption=mu) for mu in (3.0, 4.0))
-    found = solve([Stack(layers, lambertian_floor=True, floor_reflectance=share)], 60.0)
-    assert found.total[0] == pytest.approx(share * np.exp(-1.4) * 2.0 * expn(3, 0.7), abs=1e-6)
-    assert found.transmittance[0] == pytest.approx((1.0 - share) * np.exp(-1.4), abs=2e-6)
+    solved = solve([Stack(layers, lambertian_floor=True, floor_reflectance=share)], 60.0)
+    assert solved.total[0] == pytest.approx(share * np.exp(-1.4) * 2.0 * expn(3, 0.7), abs=1e-6)
+    assert solved.transmittance[0] == pytest.approx((1.0 - share) * np.exp(-1.4), abs=2e-6)
 
 
 def test_a_hypodermis_that_swallows_light_as_in_the_walk():
@@ -151,21 +151,21 @@ def scattering(thickness, index, absorption, coefficient, anisotropy):
 
 def test_published_slabs():
     """H. C. van de Hulst, Multiple Light Scattering (1980), table 35: printed to five places."""
-    found = solve([Stack((scattering(0.02, 1.0, 10.0, 90.0, 0.75),))], 0.0, 40)
-    assert found.subsurface[0] == pytest.approx(0.09739, abs=1e-5)
-    assert found.transmittance[0] == pytest.approx(0.66096, abs=1e-5)
+    solved = solve([Stack((scattering(0.02, 1.0, 10.0, 90.0, 0.75),))], 0.0, 40)
+    assert solved.subsurface[0] == pytest.approx(0.09739, abs=1e-5)
+    assert solved.transmittance[0] == pytest.approx(0.66096, abs=1e-5)
 
 
 def deviations(name, angle, rays):
     """Sums over ten wavelengths of squared deviations of surface and total, in units of the
     variance: the walk's and the solver's own."""
     walked = spectrum(SPECIMENS[name], WAVELENGTHS, angle=angle, rays=rays)
-    found = solve(stacks(SPECIMENS[name]), angle)
-    assert np.allclose(found.total + found.absorptance, 1.0, atol=1e-12)
+    solved = solve(stacks(SPECIMENS[name]), angle)
+    assert np.allclose(solved.total + solved.absorptance, 1.0, atol=1e-12)
     for share in ("surface", "total"):
         value = getattr(walked, share)
         variance = value * (1.0 - value) / rays + OWN_ERROR**2
-        yield ((getattr(found, share) - value) ** 2 / variance).sum()
+        yield ((getattr(solved, share) - value) ** 2 / variance).sum()
 
 
 @pytest.mark.parametrize(("name", "angle"), [("S1", 0.0), ("S2", 45.0), ("S3", 8.0), ("S4", 80.0)])
@@ -200,9 +200,9 @@ def test_other_readings_agree_with_the_walk_too(name, choice):
     """Chi squared with 3 degrees: a correct solver fails one of nine with 1 seed in 1,100."""
     wavelengths, rays, model = [400.0, 550.0, 900.0], 20_000, Model(readings={name: choice})
     walked = spectrum(SPECIMENS["S3"], wavelengths, rays=rays, model=model).total
-    found = solve(stacks(SPECIMENS["S3"], wavelengths, model=model)).total
+    solved = solve(stacks(SPECIMENS["S3"], wavelengths, model=model)).total
     variance = walked * (1.0 - walked) / rays + OWN_ERROR**2
-    assert ((found - walked) ** 2 / variance).sum() < 21.1
+    assert ((solved - walked) ** 2 / variance).sum() < 21.1
 
 
 def test_every_reading_is_compared():
@@ -218,20 +218,20 @@ def test_interfaces_of_unlike_layers_reflect_as_their_series_does():
     for face in reversed(faces[:3]):
         expected = face + (1.0 - face) ** 2 * expected / (1.0 - face * expected)
     layers = tuple(
-        Layer(thickness=0.1, refractive_index=each, absorption=0.0) for each in indices[1:4]
+        Layer(thickness=0.1, refractive_index=index, absorption=0.0) for index in indices[1:4]
     )
-    found = solve([Stack(layers)], 40.0)
-    assert found.surface[0] == pytest.approx(faces[0], abs=1e-12)
-    assert found.total[0] == pytest.approx(expected, abs=1e-3)
-    assert found.total[0] + found.transmittance[0] == pytest.approx(1.0, abs=1e-9)
+    solved = solve([Stack(layers)], 40.0)
+    assert solved.surface[0] == pytest.approx(faces[0], abs=1e-12)
+    assert solved.total[0] == pytest.approx(expected, abs=1e-3)
+    assert solved.total[0] + solved.transmittance[0] == pytest.approx(1.0, abs=1e-9)
 
 
 def test_fibres_scatter_once_in_each_traversal():
     """So dense that each traversal has its one event, after which half go on and half go back; of
     two such layers 1 in 3 gets through."""
     fibres = Layer(thickness=0.1, refractive_index=1.0, absorption=0.0, rayleigh=1e6)
-    found = solve([Stack((fibres,)), Stack((fibres, fibres))])
-    assert found.transmittance == pytest.approx([0.5, 1.0 / 3.0], abs=1e-6)
+    solved = solve([Stack((fibres,)), Stack((fibres, fibres))])
+    assert solved.transmittance == pytest.approx([0.5, 1.0 / 3.0], abs=1e-6)
 
 
 def test_seldom_met_melanosomes_absorb_at_their_rate():
@@ -245,8 +245,8 @@ def test_seldom_met_melanosomes_absorb_at_their_rate():
         encounter=8.0,
         survival=0.3,
     )
-    found = solve([Stack((layer,))], 0.0, 100).transmittance[0]
-    assert found == pytest.approx(np.exp(-8.0 * 0.1 * 0.7), abs=1e-6)
+    solved = solve([Stack((layer,))], 0.0, 100).transmittance[0]
+    assert solved == pytest.approx(np.exp(-8.0 * 0.1 * 0.7), abs=1e-6)
 
 
 @pytest.mark.parametrize("survival", [0.8, 0.95])
@@ -263,10 +263,10 @@ def test_melanosomes_drawn_again_are_met_as_often_as_their_size_says(name, part,
     layer = replace(layer, melanin_absorption=np.exp(brentq(off, 0.0, 20.0)))
     rays, index = 50_000, layer.refractive_index
     slab = Stack((layer,), index_above=index, index_below=index, melanin_index=1.7)
-    found = solve([slab], 30.0).transmittance[0]
+    solved = solve([slab], 30.0).transmittance[0]
     walked = (trace(slab, rays=rays, angle=30.0).outcome == TRANSMITTED).mean()
     error = np.sqrt(walked * (1.0 - walked) / rays) / walked
-    assert abs(np.log(found / walked)) < 4.0 * error + 0.005 * abs(np.log(walked))
+    assert abs(np.log(solved / walked)) < 4.0 * error + 0.005 * abs(np.log(walked))
 
 
 def test_light_that_melanosomes_turn_meets_as_many_as_in_the_walk():
@@ -274,8 +274,8 @@ def test_light_that_melanosomes_turn_meets_as_many_as_in_the_walk():
     whose standard errors are 1.6e-4 at most; 5.8e-4 without the factor that was fitted."""
     walked = {"S1": {600.0: 0.4629002, 700.0: 0.6102419}, "S2": {600.0: 0.395891, 700.0: 0.561835}}
     apart = [
-        spectrum_without_noise(SPECIMENS[name], list(found)).total - list(found.values())
-        for name, found in walked.items()
+        spectrum_without_noise(SPECIMENS[name], list(totals)).total - list(totals.values())
+        for name, totals in walked.items()
     ]
     assert np.sqrt(np.mean(np.square(apart))) < 5e-4
 
@@ -293,14 +293,14 @@ def test_light_that_melanosomes_turn_meets_as_many_as_in_the_walk():
 def test_more_pigment_is_darker_and_smoothly_so(name, values):
     """Falling, and convex: no noise to feign a minimum for a fit."""
     wavelengths = [600.0, 650.0, 700.0]
-    found = [
-        each
+    reflectances = [
+        total
         for value in values
-        for each in spectrum_without_noise(
+        for total in spectrum_without_noise(
             replace(SPECIMENS["S3"], **{name: value}), wavelengths
         ).total
     ]
-    totals = np.reshape(found, (values.size, -1))
+    totals = np.reshape(reflectances, (values.size, -1))
     assert np.all(np.diff(totals, axis=0) < 0.0)
     assert np.all(np.diff(totals, n=2, axis=0) > 0.0)
 
@@ -309,22 +309,22 @@ def test_more_pigment_is_darker_and_smoothly_so(name, values):
 def test_reflectance_is_smooth_in_the_surface(name):
     """Over steps of 2 % third differences, where noise would be, are far below first ones."""
     usual = getattr(SPECIMENS["S1"], name)
-    found = [
-        spectrum_without_noise(replace(SPECIMENS["S1"], **{name: each}), [600.0]).total[0]
-        for each in usual * np.linspace(0.95, 1.05, 6)
+    reflectances = [
+        spectrum_without_noise(replace(SPECIMENS["S1"], **{name: value}), [600.0]).total[0]
+        for value in usual * np.linspace(0.95, 1.05, 6)
     ]
-    assert np.abs(np.diff(found, n=3)).max() < 0.05 * np.abs(np.diff(found)).max()
+    assert np.abs(np.diff(reflectances, n=3)).max() < 0.05 * np.abs(np.diff(reflectances)).max()
 
 
 def test_a_stack_alone_is_as_in_company_and_angles_are_as_alone():
     specimen, wavelengths = SPECIMENS["S2"], np.linspace(300.0, 2400.0, 70)
     angles = (0.0, 8.0, 45.0, 80.0)
-    found = spectrum_without_noise(specimen, wavelengths, angle=angles)
-    assert found.total.shape == (4, 70)
+    solved = spectrum_without_noise(specimen, wavelengths, angle=angles)
+    assert solved.total.shape == (4, 70)
     for row, angle in enumerate(angles):
         alone = spectrum_without_noise(specimen, wavelengths[33:34], angle=angle)
-        assert alone.total[0] == pytest.approx(found.total[row, 33], abs=1e-12)
-        assert alone.surface[0] == pytest.approx(found.surface[row, 33], abs=1e-12)
+        assert alone.total[0] == pytest.approx(solved.total[row, 33], abs=1e-12)
+        assert alone.surface[0] == pytest.approx(solved.surface[row, 33], abs=1e-12)
 
 
 def test_nodes_beyond_the_default_change_little():

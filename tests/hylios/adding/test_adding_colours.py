@@ -17,26 +17,26 @@ WHOLE = np.arange(360.0, 781.0, 5.0)
 @pytest.mark.parametrize("name", ["S1", "S3", "S4"])
 def test_colours_of_few_wavelengths_are_those_of_whole_spectra(name):
     skin = Skin.of(SPECIMENS[name])
-    found = colours(skin, STATES, bands=[365.0, 1650.0])
+    few_nm = colours(skin, STATES, bands=[365.0, 1650.0])
     for row, state in enumerate(STATES):
         tanned = skin.at(state)
         whole = spectrum(tanned, WHOLE)
         weights = colour.rec709_weights(WHOLE)
-        assert colour.difference(weights @ whole.total, found.total[row]) < 0.05
-        assert colour.difference(weights @ whole.subsurface, found.subsurface[row]) < 0.05
+        assert colour.difference(weights @ whole.total, few_nm.total[row]) < 0.05
+        assert colour.difference(weights @ whole.subsurface, few_nm.subsurface[row]) < 0.05
         bands = spectrum(tanned, [365.0, 1650.0]).total
-        assert found.bands[row] == pytest.approx(bands, abs=1e-12)
+        assert few_nm.bands[row] == pytest.approx(bands, abs=1e-12)
 
 
 def test_more_wavelengths_change_colours_little_and_states_are_as_alone():
     many = np.repeat(STATES, 7, axis=0)
     told = []
-    found = colours(S3, many, count=16, progress=told.append)
+    few_nm = colours(S3, many, count=16, progress=told.append)
     assert sum(told) == len(many) and len(told) > 1
     for first in range(7):
-        assert np.allclose(found.total[first::7], found.total[::7], rtol=0.0, atol=1e-12)
+        assert np.allclose(few_nm.total[first::7], few_nm.total[::7], rtol=0.0, atol=1e-12)
     few = colours(S3, STATES)
-    assert colour.difference(found.total[::7], few.total).max() < 0.05
+    assert colour.difference(few_nm.total[::7], few.total).max() < 0.05
     assert few.bands.shape == (3, 0)
     assert colours(S3, np.empty((0, 4)), bands=[400.0]).bands.shape == (0, 1)
 
@@ -52,10 +52,10 @@ def test_skin_without_absorbers_is_white():
     }
     kept = {"oxygenated_blood": SPECIMENS["S3"].oxygenated_blood}
     clear = with_values(SPECIMENS["S3"], {**none, **kept}, allow_unphysical=True)
-    found = colours(Skin.of(clear), STATES, bands=[365.0])
-    assert np.abs(found.total - 1.0).max() < 1e-9
-    assert np.abs(found.bands - 1.0).max() < 1e-9
-    assert np.all(found.subsurface < 0.98)
+    few_nm = colours(Skin.of(clear), STATES, bands=[365.0])
+    assert np.abs(few_nm.total - 1.0).max() < 1e-9
+    assert np.abs(few_nm.bands - 1.0).max() < 1e-9
+    assert np.all(few_nm.subsurface < 0.98)
 
 
 @pytest.mark.parametrize(

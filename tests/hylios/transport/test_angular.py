@@ -230,14 +230,14 @@ def test_scattering_once_in_a_traversal_is_not_reciprocal():
 
 def ratio(layers, rays=60_000):
     """Subsurface f_r from 15 to 75 degrees over that from 75 to 15, and its standard error."""
-    found = [
+    both_ways = [
         angular_reflectance(
             layers, angle=angle, polar_bins=9, azimuth_bins=1, rays=rays, key=(7, angle)
         )
         for angle in (15, 75)
     ]
-    counts = np.array([found[0].subsurface_counts[7, 0], found[1].subsurface_counts[1, 0]])
-    rings = found[0].projected_solid_angle[[7, 1], 0]
+    counts = np.array([both_ways[0].subsurface_counts[7, 0], both_ways[1].subsurface_counts[1, 0]])
+    rings = both_ways[0].projected_solid_angle[[7, 1], 0]
     value = counts[0] / rings[0] / counts[1] * rings[1]
     return value, value * np.sqrt(np.sum(1.0 / counts))
 
@@ -273,8 +273,8 @@ def test_standard_error_is_the_scatter_between_seeds():
         )
         for seed in range(30)
     ]
-    scatter = np.var([each.total for each in runs], axis=0, ddof=1)
-    predicted = np.mean([each.standard_error**2 for each in runs], axis=0)
+    scatter = np.var([run.total for run in runs], axis=0, ddof=1)
+    predicted = np.mean([run.standard_error**2 for run in runs], axis=0)
     assert np.mean(scatter / predicted) == pytest.approx(1.0, abs=0.36)
 
 

@@ -92,7 +92,7 @@ def test_orientation_of_spheroid():
     """Equation 4.5 with the measure sin(alpha): in the cosine without it; one end of the axis."""
     evenly = (np.arange(DRAWS) + 0.5) / DRAWS
     for aspect in (0.17 / 0.41, 1.0, 0.001):
-        values = [sampling.spheroid_cosine(each, aspect) for each in evenly]
+        values = [sampling.spheroid_cosine(number, aspect) for number in evenly]
         assert_follows(values, lambda x, a=aspect: (1.0 - x) + a * x, 0.0, 1.0)
 
 

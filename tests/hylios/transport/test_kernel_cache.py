@@ -108,7 +108,7 @@ def test_a_folder_that_cannot_be_written_is_said_once(folder, capfd):
     made = [doubling(), doubling()]
     shutil.rmtree(folder)
     folder.write_text("a file in its place")
-    assert [each(3.0) for each in made] == [6.0, 6.0]
+    assert [double(3.0) for double in made] == [6.0, 6.0]
     said = capfd.readouterr().err
     assert said.count("note: ") == said.count("\n") == 1
     assert "Not a directory" in said

@@ -131,8 +131,8 @@ def test_burley_width_and_its_error_in_millimetres():
         )[0]
         for _ in range(40)
     ]
-    widths = [burley_width(edges, each) for each in samples]
-    error = np.mean([burley_width_error(edges, each) for each in samples[:4]])
+    widths = [burley_width(edges, counts) for counts in samples]
+    error = np.mean([burley_width_error(edges, counts) for counts in samples[:4]])
     assert np.mean(widths) == pytest.approx(0.4, rel=0.03)
     assert error == pytest.approx(np.std(widths, ddof=1), rel=0.5)
     with pytest.raises(InputError, match="a profile needs light"):

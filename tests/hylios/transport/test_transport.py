@@ -31,7 +31,7 @@ def without_absorbers(layers: Stack) -> Stack:
     return replace(
         layers,
         layers=tuple(
-            replace(each, absorption=0.0, melanin_absorption=0.0) for each in layers.layers
+            replace(layer, absorption=0.0, melanin_absorption=0.0) for layer in layers.layers
         ),
     )
 
@@ -120,20 +120,22 @@ def test_a_layer_absorbs_with_the_sum_of_its_absorbers(name, colloidal):
     model = Model(readings={"colloidal_melanin": colloidal})
     held = absorbers(SPECIMENS[name], wavelengths, model)
     assert tuple(held) == PARTS
-    assert {each for part in held.values() for each in part} == set(ABSORBERS)
+    assert {name for part in held.values() for name in part} == set(ABSORBERS)
     for row, wavelength in enumerate(wavelengths):
         layers = Stack.of(SPECIMENS[name], wavelength, model).layers
         for part, layer in zip(PARTS, layers, strict=True):
-            assert layer.absorption == pytest.approx(sum(each[row] for each in held[part].values()))
+            assert layer.absorption == pytest.approx(
+                sum(spectrum[row] for spectrum in held[part].values())
+            )
 
 
 def test_light_is_absorbed_by_layer_and_absorber():
     """Who takes it where, at wavelengths where one absorber rules; and all of it adds up."""
-    found = spectrum(SPECIMENS["S3"], [280.0, 420.0, 577.0, 1450.0], rays=4_000)
-    by = found.absorbed_by
+    walked = spectrum(SPECIMENS["S3"], [280.0, 420.0, 577.0, 1450.0], rays=4_000)
+    by = walked.absorbed_by
     assert by.shape == (4, len(PARTS), len(ABSORBERS))
-    assert np.allclose(by.sum(axis=2), found.absorbed, rtol=1e-12, atol=0.0)
-    ended = found.total + by.sum(axis=(1, 2)) + found.absorbed_in_melanosomes.sum(axis=1)
+    assert np.allclose(by.sum(axis=2), walked.absorbed, rtol=1e-12, atol=0.0)
+    ended = walked.total + by.sum(axis=(1, 2)) + walked.absorbed_in_melanosomes.sum(axis=1)
     assert np.allclose(ended, 1.0, rtol=0.0, atol=1e-12)
 
     def ruling(row, part):

@@ -54,21 +54,21 @@ def spectra(name):
 
 @pytest.mark.parametrize("name", ["S1", "S3", "S4"])
 def test_fates_are_the_same_over_the_visible(name):
-    found = []
-    for each in spectra(name):
-        left = [each.surface, each.subsurface, each.transmittance]
-        absorbed = [*each.absorbed.T, *each.absorbed_in_melanosomes.T]
-        found.append(np.rint(each.rays * np.array([*left, *absorbed]).sum(axis=1)).astype(int))
-        assert found[-1].sum() == each.rays * VISIBLE.size
-    assert p_value(*found) > LEVEL
+    ends = []
+    for one in spectra(name):
+        left = [one.surface, one.subsurface, one.transmittance]
+        absorbed = [*one.absorbed.T, *one.absorbed_in_melanosomes.T]
+        ends.append(np.rint(one.rays * np.array([*left, *absorbed]).sum(axis=1)).astype(int))
+        assert ends[-1].sum() == one.rays * VISIBLE.size
+    assert p_value(*ends) > LEVEL
 
 
 @pytest.mark.parametrize("name", ["S1", "S3", "S4"])
 def test_reflectance_is_the_same_wavelength_by_wavelength(name):
     """Within 3 standard errors: one of these 18 is not for 5 seeds in 100; the seed is fixed."""
-    found, printed = spectra(name)
-    error = np.hypot(found.standard_error, printed.standard_error)
-    assert np.all(np.abs(found.total - printed.total) < 3.0 * error)
+    equivalent, printed = spectra(name)
+    error = np.hypot(equivalent.standard_error, printed.standard_error)
+    assert np.all(np.abs(equivalent.total - printed.total) < 3.0 * error)
 
 
 @pytest.mark.parametrize(
@@ -138,15 +138,15 @@ def test_fates_are_the_same_where_all_kinds_of_attenuators_share_a_layer(radius)
 def test_light_leaves_at_the_same_places_and_in_the_same_directions(name):
     """Kolmogorov-Smirnov at 1e-4 for each of distance and three components of direction."""
     layers = Stack.of(SPECIMENS[name], 620.0)
-    found, printed = (
+    equivalent, printed = (
         trace(layers, rays=30_000, angle=45.0, key=(6, way), as_printed=bool(way)) for way in (0, 1)
     )
-    inside = [each.outcome == SUBSURFACE for each in (found, printed)]
+    inside = [rays.outcome == SUBSURFACE for rays in (equivalent, printed)]
     for measure in (
         lambda rays: rays.distance,
         *(lambda r, i=i: r.direction[:, i] for i in range(3)),
     ):
-        result = stats.ks_2samp(measure(found)[inside[0]], measure(printed)[inside[1]])
+        result = stats.ks_2samp(measure(equivalent)[inside[0]], measure(printed)[inside[1]])
         assert result.pvalue > LEVEL
 
 
@@ -197,9 +197,9 @@ def test_spectra_are_the_same_wavelength_by_wavelength(name):
     """61 wavelengths, all within 3 standard errors: in 15 seeds of 100 one is not, and the seed is
     fixed. The squares of all add up to what chi squared has, at a level of 1e-4."""
     wavelengths = np.arange(400.0, 701.0, 5.0)
-    found = spectrum(SPECIMENS[name], wavelengths, rays=100_000, seed=5)
+    equivalent = spectrum(SPECIMENS[name], wavelengths, rays=100_000, seed=5)
     printed = spectrum(SPECIMENS[name], wavelengths, rays=20_000, seed=6, as_printed=True)
-    error = np.hypot(found.standard_error, printed.standard_error)
-    deviation = (found.total - printed.total) / error
+    error = np.hypot(equivalent.standard_error, printed.standard_error)
+    deviation = (equivalent.total - printed.total) / error
     assert np.abs(deviation).max() < 3.0
     assert (deviation**2).sum() < stats.chi2.isf(LEVEL, deviation.size)

@@ -23,8 +23,8 @@ from hylios.transport.simulate import spectrum, trace
 RAYS = 200_000
 
 
-def assert_share(found, expected, rays=RAYS):
-    assert abs(found - expected) < 4.0 * np.sqrt(expected * (1.0 - expected) / rays)
+def assert_share(share, expected, rays=RAYS):
+    assert abs(share - expected) < 4.0 * np.sqrt(expected * (1.0 - expected) / rays)
 
 
 def transmitted(traced):
@@ -146,12 +146,12 @@ def passed_the_crowd():
 def test_melanosomes_do_not_overlap_or_leave_their_layer(as_printed, passed_the_crowd):
     """Spheres of 1 um in 20 um, met every 2 um: the same rules in numpy, ray by ray."""
     passed = passed_the_crowd
-    found = transmitted(trace(Stack((CROWDED,)), rays=RAYS, as_printed=as_printed))
-    error = np.hypot(passed.std() / np.sqrt(passed.size), np.sqrt(found * (1.0 - found) / RAYS))
-    assert abs(found - passed.mean()) < 4.0 * error
+    share = transmitted(trace(Stack((CROWDED,)), rays=RAYS, as_printed=as_printed))
+    error = np.hypot(passed.std() / np.sqrt(passed.size), np.sqrt(share * (1.0 - share) / RAYS))
+    assert abs(share - passed.mean()) < 4.0 * error
     clear = 2.0 * (1.0 - 1.3 * np.exp(-0.3)) / 0.3**2  # survival of one
     unhindered = np.exp(-CROWDED.encounter * CROWDED.thickness * (1.0 - clear))
-    assert found - unhindered > 20.0 * error
+    assert share - unhindered > 20.0 * error
 
 
 def test_melanosomes_turn_light_by_algorithm_1():
@@ -214,9 +214,11 @@ def test_a_rough_surface_lets_light_out_as_an_independent_draw_says(cosine, roug
     error = np.sqrt(2.0 * share * (1.0 - share) / RAYS)
     assert abs(crossed.mean() - share) < 4.0 * error
     for side in (True, False):
-        found, expected = upward[crossed == side], expected_upward[expected_crossed == side]
-        error = np.hypot(found.std() / np.sqrt(found.size), expected.std() / np.sqrt(expected.size))
-        assert abs(found.mean() - expected.mean()) < 4.0 * error
+        sample, expected = upward[crossed == side], expected_upward[expected_crossed == side]
+        error = np.hypot(
+            sample.std() / np.sqrt(sample.size), expected.std() / np.sqrt(expected.size)
+        )
+        assert abs(sample.mean() - expected.mean()) < 4.0 * error
 
 
 BROAD = np.concatenate(
@@ -252,8 +254,8 @@ def test_other_readings_move_s3_as_an_independent_implementation_found(
     8 %, for its rounding, another choice of wavelengths and the noise of both."""
     moved = total(model=Model(readings={name: choice})) - usual_total
     regions = (BROAD < 400, (BROAD >= 400) & (BROAD < 700), BROAD >= 700)
-    found = [np.sqrt(np.mean(moved[region] ** 2)) for region in regions]
-    assert np.allclose(found, expected, atol=0.012, rtol=0.08)
+    moves = [np.sqrt(np.mean(moved[region] ** 2)) for region in regions]
+    assert np.allclose(moves, expected, atol=0.012, rtol=0.08)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,8 @@ from examples.simplifications.skins import random_skins
 from examples.simplifications.variants import whole
 from hylios.files import written_beside
 from hylios.lab import colour
-from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Colours, Quadrature, choose
+from hylios.lab.quadrature_choice import Colours, choose
+from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Quadrature
 
 FIRST, LAST = 400.0, 700.0
 """Of the wavelengths to choose from: beyond, the eye sees little and spectra are guesses."""

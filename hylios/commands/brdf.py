@@ -4,14 +4,8 @@ import argparse
 
 import numpy as np
 
-from hylios.commands.shell import (
-    add_skin_arguments,
-    add_work_arguments,
-    chosen_skin,
-    note_estimates,
-    print_table,
-    require_work,
-)
+from hylios.commands.beam import add_beam_arguments, simulated
+from hylios.commands.shell import note_estimates, print_table
 
 DESCRIPTION = """\
 One row for each bin of directions: its middle in polar angle (0 is the skin's normal) and azimuth
@@ -28,33 +22,22 @@ def add_to(commands) -> None:
         "brdf", help="angular distribution of a specimen's reflectance", description=DESCRIPTION
     )
     parser.set_defaults(command=run)
-    add_skin_arguments(parser)
-    add_work_arguments(parser)
-    parser.add_argument("--wavelength", type=float, default=550.0, help="nm (default 550)")
-    parser.add_argument("--angle", type=float, default=45.0, help="of incidence, degrees")
+    add_beam_arguments(parser, wavelength=550.0, angle=45.0)
     parser.add_argument("--polar-bins", type=int, default=18, help="in 0 to 90 degrees")
     parser.add_argument("--azimuth-bins", type=int, default=12, help="in 0 to 180 degrees")
-    parser.add_argument("--rays", type=int, default=1_000_000)
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Simulate and print."""
     from hylios.transport.angular import brdf  # numba: only when light is asked for
 
-    require_work(asked)
-    specimen, model = chosen_skin(asked)
-    result = brdf(
-        specimen,
-        asked.wavelength,
-        angle=asked.angle,
-        polar_bins=asked.polar_bins,
-        azimuth_bins=asked.azimuth_bins,
-        rays=asked.rays,
-        seed=asked.seed,
-        threads=asked.threads,
-        model=model,
+    result, model = simulated(
+        brdf,
+        arguments,
+        polar_bins=arguments.polar_bins,
+        azimuth_bins=arguments.azimuth_bins,
     )
-    note_estimates(model, np.array([asked.wavelength]))
+    note_estimates(model, np.array([arguments.wavelength]))
     polar, azimuth = np.meshgrid(
         _middles(result.polar_edges), _middles(result.azimuth_edges), indexing="ij"
     )

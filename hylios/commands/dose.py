@@ -5,10 +5,10 @@ import argparse
 import numpy as np
 
 from hylios.commands.dose_arguments import (
-    add_chosen_arguments,
     add_exposure_arguments,
-    chosen,
+    add_skin_in_light_arguments,
     chosen_doses,
+    skin_in_light,
 )
 from hylios.commands.shell import print_table
 
@@ -25,14 +25,14 @@ def add_to(commands) -> None:
         "dose", help="doses of sun, lamps and UV index", description=DESCRIPTION
     )
     parser.set_defaults(command=run)
-    add_chosen_arguments(parser)
+    add_skin_in_light_arguments(parser)
     add_exposure_arguments(parser)
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Compute and print."""
-    of = chosen(asked)
-    doses = chosen_doses(asked, of)
+    of = skin_in_light(arguments)
+    doses = chosen_doses(arguments, of)
     checked = doses.exposures()
     order = np.argsort(checked.hours, kind="stable")
     columns = {

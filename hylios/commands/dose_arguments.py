@@ -64,20 +64,20 @@ shines from a clear sky on level skin.
 
 
 @dataclass(frozen=True)
-class Chosen:
-    """What the commands need of a skin that tans."""
+class SkinInLight:
+    """A skin that tans, and the model by which light reaches it."""
 
     skin: Skin
     model: Model
 
 
-def add_chosen_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that `chosen` reads."""
+def add_skin_in_light_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `skin_in_light` reads."""
     add_tanning_arguments(parser)
     add_skin_arguments(parser)
 
 
-def chosen(asked: argparse.Namespace) -> Chosen:
+def skin_in_light(arguments: argparse.Namespace) -> SkinInLight:
     """The skin that the arguments ask for, and the model of light.
 
     Where nothing is said of the specimen, minimal doses are those typical of the tanning set.
@@ -87,14 +87,14 @@ def chosen(asked: argparse.Namespace) -> Chosen:
     InputError
         If one of them cannot be used.
     """
-    _, model = chosen_skin(asked)
-    skin = chosen_tanning_skin(asked)
-    if asked.skin is None and asked.specimen is None and not asked.set:
+    _, model = chosen_skin(arguments)
+    skin = chosen_tanning_skin(arguments)
+    if arguments.skin is None and arguments.specimen is None and not arguments.set:
         typical = TYPICAL_PIGMENTATION[skin.pigmentation]
-        mmd = minimal_melanogenesis_dose(typical) if asked.mmd is None else asked.mmd
-        med = minimal_erythema_dose(typical) if asked.med is None else asked.med
+        mmd = minimal_melanogenesis_dose(typical) if arguments.mmd is None else arguments.mmd
+        med = minimal_erythema_dose(typical) if arguments.med is None else arguments.med
         skin = replace(skin, mmd=mmd, med=med)
-    return Chosen(skin, model)
+    return SkinInLight(skin, model)
 
 
 def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
@@ -132,7 +132,7 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
     over.add_argument("--upf", type=float, help="of cloth; grey")
 
 
-def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
+def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
     """The doses that the arguments ask for; says on standard error which spectra are estimates.
 
     Raises
@@ -140,81 +140,85 @@ def chosen_doses(asked: argparse.Namespace, of: Chosen) -> Doses:
     InputError
         If one of them cannot be used.
     """
-    over = _protection(asked)
-    parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in asked.dose]
-    parts += [of_uv_index(*_uv_index(text), over) for text in asked.uv_index]
-    _require_place(asked)
-    if asked.sun or asked.spectrum:
+    over = _protection(arguments)
+    parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in arguments.dose]
+    parts += [of_uv_index(*_uv_index(text), over) for text in arguments.uv_index]
+    _require_place(arguments)
+    if arguments.sun or arguments.spectrum:
         from hylios.adding.absorptance import tabulated  # the light model: only for a spectrum
 
         absorptance = tabulated(of.skin.specimen, model=of.model)
         parts += [
             of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra)
-            for text in asked.spectrum
+            for text in arguments.spectrum
         ]
-        parts += _of_sun(asked, absorptance, over, of.model.spectra)
-    found = joined(parts)
-    found.exposures()  # whatever cannot be used is refused before anything is said
-    if asked.sun or asked.spectrum:
+        parts += _of_sun(arguments, absorptance, over, of.model.spectra)
+    doses = joined(parts)
+    doses.exposures()  # whatever cannot be used is refused before anything is said
+    if arguments.sun or arguments.spectrum:
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
         note_estimates(of.model, light, (*SPECTRA, MELANOGENESIS))
-    return found
+    return doses
 
 
-def _require_place(asked: argparse.Namespace) -> None:
+def _require_place(arguments: argparse.Namespace) -> None:
     """Raise InputError where options of the sun are missing, or there without it."""
-    if not asked.sun:
+    if not arguments.sun:
         for option in ("start", "latitude", "longitude", "utc_offset", *SKY):
-            if getattr(asked, option) is not None:
+            if getattr(arguments, option) is not None:
                 raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
-    elif asked.latitude is None:
+    elif arguments.latitude is None:
         raise InputError("--sun needs --latitude, in degrees, north positive.")
-    elif asked.utc_offset is not None and asked.longitude is None:
+    elif arguments.utc_offset is not None and arguments.longitude is None:
         raise InputError("--utc-offset is given without --longitude.")
 
 
 def _of_sun(
-    asked: argparse.Namespace, absorptance: Absorptance, over: Protection, spectra: Spectra
+    arguments: argparse.Namespace, absorptance: Absorptance, over: Protection, spectra: Spectra
 ) -> list[Doses]:
     """The doses of each `--sun`."""
-    suns = [_sun(text) for text in asked.sun]
-    start = _date(asked.start) if asked.start else min((each[0] for each in suns), default=None)
-    air = {name: getattr(asked, name) for name in SKY}
+    suns = [_sun(text) for text in arguments.sun]
+    start = (
+        _date(arguments.start) if arguments.start else min((day for day, *_ in suns), default=None)
+    )
+    air = {name: getattr(arguments, name) for name in SKY}
     sky = ClearSky(**{name: value for name, value in air.items() if value is not None})
     return [
         of_sun(
-            *each,
-            asked.latitude,
+            day,
+            first,
+            last,
+            arguments.latitude,
             absorptance,
             start=start,
-            longitude=asked.longitude,
-            utc_offset=asked.utc_offset or 0.0,
+            longitude=arguments.longitude,
+            utc_offset=arguments.utc_offset or 0.0,
             sky=sky,
             protection=over,
             spectra=spectra,
         )
-        for each in suns
+        for day, first, last in suns
     ]
 
 
-def _protection(asked: argparse.Namespace) -> Protection:
-    amount = NOMINAL_AMOUNT if asked.sunscreen_amount is None else asked.sunscreen_amount
+def _protection(arguments: argparse.Namespace) -> Protection:
+    amount = NOMINAL_AMOUNT if arguments.sunscreen_amount is None else arguments.sunscreen_amount
     layers = []
-    if asked.spf is not None and asked.sunscreen is not None:
+    if arguments.spf is not None and arguments.sunscreen is not None:
         raise InputError("a sunscreen is given as --spf and as --sunscreen; give only one.")
-    if asked.spf is not None:
-        layers.append(sunscreen(asked.spf, amount))
-    elif asked.sunscreen is not None:
-        film = sunscreen_film(*read_transmittance(asked.sunscreen), amount)
+    if arguments.spf is not None:
+        layers.append(sunscreen(arguments.spf, amount))
+    elif arguments.sunscreen is not None:
+        film = sunscreen_film(*read_transmittance(arguments.sunscreen), amount)
         passed = film.of_sunlight()
         spf = f"{1.0 / passed:.3g}" if passed > 0.0 else "infinite"
-        name = name_of(asked.sunscreen)
+        name = name_of(arguments.sunscreen)
         print(f"note: {name} at {amount:g} mg/cm^2 is an SPF of {spf}", file=sys.stderr)
         layers.append(film)
-    elif asked.sunscreen_amount is not None:
+    elif arguments.sunscreen_amount is not None:
         raise InputError("--sunscreen-amount is given without --spf or --sunscreen.")
-    if asked.upf is not None:
-        layers.append(clothing(asked.upf))
+    if arguments.upf is not None:
+        layers.append(clothing(arguments.upf))
     return layered(layers)
 
 

@@ -22,13 +22,13 @@ def add_to(commands) -> None:
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png|FILE.svg")
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Read, draw and write."""
-    require_target(asked.output, (".png", ".svg"), asked.force)
-    spectra = read_spectra(asked.files)
+    require_target(arguments.output, (".png", ".svg"), arguments.force)
+    spectra = read_spectra(arguments.files)
 
     from hylios.lab.pictures import spectra_figure, write_figure  # matplotlib takes a second
 
-    write_figure(spectra_figure(spectra), asked.output)
+    write_figure(spectra_figure(spectra), arguments.output)
     names = ", ".join(spectrum.name for spectrum in spectra)
-    print(f"wrote {shown(asked.output)}: {names}")
+    print(f"wrote {shown(arguments.output)}: {names}")

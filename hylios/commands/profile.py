@@ -5,14 +5,8 @@ import sys
 
 import numpy as np
 
-from hylios.commands.shell import (
-    add_skin_arguments,
-    add_work_arguments,
-    chosen_skin,
-    note_estimates,
-    print_table,
-    require_work,
-)
+from hylios.commands.beam import add_beam_arguments, simulated
+from hylios.commands.shell import note_estimates, print_table
 
 DESCRIPTION = """\
 One row for each ring around the point where a pencil beam comes in: its inner and outer radius in
@@ -29,38 +23,24 @@ def add_to(commands) -> None:
         "profile", help="radial exitance of a specimen, and Burley's width", description=DESCRIPTION
     )
     parser.set_defaults(command=run)
-    add_skin_arguments(parser)
-    add_work_arguments(parser)
-    parser.add_argument("--wavelength", type=float, default=633.0, help="nm (default 633)")
-    parser.add_argument("--angle", type=float, default=0.0, help="of incidence, degrees")
+    add_beam_arguments(parser, wavelength=633.0, angle=0.0)
     parser.add_argument("--smallest", type=float, default=0.01, help="first ring's radius, mm")
     parser.add_argument("--largest", type=float, default=100.0, help="last ring's radius, mm")
     parser.add_argument("--rings", type=int, default=60)
     parser.add_argument("--fit", action="store_true", help="only the fitted width, as CSV")
-    parser.add_argument("--rays", type=int, default=1_000_000)
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Simulate and print."""
     from hylios.transport.radial import Rings, profile  # numba: only when light is asked for
 
-    require_work(asked)
-    specimen, model = chosen_skin(asked)
-    result = profile(
-        specimen,
-        asked.wavelength,
-        angle=asked.angle,
-        rings=Rings(asked.smallest, asked.largest, asked.rings),
-        rays=asked.rays,
-        seed=asked.seed,
-        threads=asked.threads,
-        model=model,
-    )
+    rings = Rings(arguments.smallest, arguments.largest, arguments.rings)
+    result, model = simulated(profile, arguments, rings=rings)
     width, error = result.burley_width, result.burley_width_error
-    note_estimates(model, np.array([asked.wavelength]))
-    if asked.fit:
+    note_estimates(model, np.array([arguments.wavelength]))
+    if arguments.fit:
         row = {
-            "wavelength_nm": asked.wavelength,
+            "wavelength_nm": arguments.wavelength,
             "subsurface": result.subsurface,
             "burley_width_mm": width,
             "standard_error_mm": error,
@@ -70,7 +50,7 @@ def run(asked: argparse.Namespace) -> None:
     print(f"note: Burley's width d is {width:.4g} mm, standard error {error:.2g}", file=sys.stderr)
     if result.beyond:
         print(
-            f"note: {result.beyond:.3g} of the light leaves beyond {asked.largest:g} mm",
+            f"note: {result.beyond:.3g} of the light leaves beyond {arguments.largest:g} mm",
             file=sys.stderr,
         )
     print_table(

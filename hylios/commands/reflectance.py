@@ -29,21 +29,21 @@ def add_to(commands) -> None:
     )
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Simulate and print."""
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
-    require_work(asked)
-    specimen, model = chosen_skin(asked)
+    require_work(arguments)
+    specimen, model = chosen_skin(arguments)
     result = spectrum(
         specimen,
-        wavelength_range(asked.wavelengths),
-        angle=asked.angle,
-        rays=asked.rays,
-        seed=asked.seed,
-        threads=asked.threads,
+        wavelength_range(arguments.wavelengths),
+        angle=arguments.angle,
+        rays=arguments.rays,
+        seed=arguments.seed,
+        threads=arguments.threads,
         model=model,
-        as_printed=asked.as_printed,
+        as_printed=arguments.as_printed,
     )
     note_estimates(model, result.wavelengths)
     print_table(

@@ -150,14 +150,14 @@ def add_work_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--threads", type=int, help="default: all cores")
 
 
-def require_work(asked: argparse.Namespace) -> None:
+def require_work(arguments: argparse.Namespace) -> None:
     """Raise InputError where the seed or the number of threads is out of range."""
-    require_whole("seed", asked.seed, 0, 2**32 - 1)
-    if asked.threads is not None:
-        require_whole("number of threads", asked.threads, 1, 1024)
+    require_whole("seed", arguments.seed, 0, 2**32 - 1)
+    if arguments.threads is not None:
+        require_whole("number of threads", arguments.threads, 1, 1024)
 
 
-def chosen_specimen(asked: argparse.Namespace) -> Specimen:
+def chosen_specimen(arguments: argparse.Namespace) -> Specimen:
     """The specimen that the arguments ask for: one by name or a file's, with what is set.
 
     Raises
@@ -165,12 +165,12 @@ def chosen_specimen(asked: argparse.Namespace) -> Specimen:
     InputError
         If there is none, or it would not be physiological and that is not allowed.
     """
-    numeric = {each.name for each in parameters()}
+    numeric = {parameter.name for parameter in parameters()}
     values = {
         name: number(text, name) if name in numeric else text
-        for name, text in named_values(asked.set, "a setting").items()
+        for name, text in named_values(arguments.set, "a setting").items()
     }
-    name, unphysical = _specimen_name(asked), asked.allow_unphysical
+    name, unphysical = _specimen_name(arguments), arguments.allow_unphysical
     if name.endswith(".toml"):
         start = read_specimen(Path(name), allow_unphysical=unphysical)
     else:
@@ -178,18 +178,18 @@ def chosen_specimen(asked: argparse.Namespace) -> Specimen:
     return with_values(start, values, allow_unphysical=unphysical)
 
 
-def _specimen_name(asked: argparse.Namespace) -> str:
+def _specimen_name(arguments: argparse.Namespace) -> str:
     """Name or file of the specimen asked for, which `--skin` can name as well."""
-    type_of_skin = getattr(asked, "skin", None)
-    if type_of_skin is not None and asked.specimen is not None:
+    type_of_skin = getattr(arguments, "skin", None)
+    if type_of_skin is not None and arguments.specimen is not None:
         raise InputError(
-            f"both the skin type {type_of_skin} and the specimen {asked.specimen} are given; "
+            f"both the skin type {type_of_skin} and the specimen {arguments.specimen} are given; "
             "allowed is one of them."
         )
-    return type_of_skin or asked.specimen or USUAL_SPECIMEN
+    return type_of_skin or arguments.specimen or USUAL_SPECIMEN
 
 
-def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state") -> Skin:
+def chosen_tanning_skin(arguments: argparse.Namespace, untanned: str = "steady_state") -> Skin:
     """The skin that the arguments ask for: `chosen_specimen`, and how it tans.
 
     A skin type, be it named by `--skin`, as a specimen or in a specimen's file, tans as the type
@@ -200,19 +200,21 @@ def chosen_tanning_skin(asked: argparse.Namespace, untanned: str = "steady_state
     InputError
         If there is none, or a part of it cannot be used.
     """
-    specimen = chosen_specimen(asked)
+    specimen = chosen_specimen(arguments)
     rates = {
         rate: number(text, rate)
-        for rate, text in named_values(asked.tanning, "a rate of tanning").items()
+        for rate, text in named_values(arguments.tanning, "a rate of tanning").items()
     }
-    pigmentation = asked.pigmentation
+    pigmentation = arguments.pigmentation
     if specimen.name in PHOTOTYPES and pigmentation is None:
         usual = phototype(specimen.name)
         pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
-    return Skin.of(specimen, pigmentation, asked.mmd, asked.med, tanning=rates, untanned=untanned)
+    return Skin.of(
+        specimen, pigmentation, arguments.mmd, arguments.med, tanning=rates, untanned=untanned
+    )
 
 
-def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Model]:
+def chosen_skin(arguments: argparse.Namespace) -> tuple[Specimen, Model]:
     """The specimen that the arguments ask for, and the model with their spectra and readings.
 
     Raises
@@ -221,10 +223,10 @@ def chosen_skin(asked: argparse.Namespace) -> tuple[Specimen, Model]:
         If one of them cannot be used.
     """
     spectra = published_spectra()
-    for name, path in named_values(asked.own_spectrum, "a spectrum of your own").items():
+    for name, path in named_values(arguments.own_spectrum, "a spectrum of your own").items():
         spectra = with_own_spectrum(spectra, name, Path(path))
-    readings = named_values(asked.reading, "a reading")
-    return chosen_specimen(asked), Model(spectra, readings)
+    readings = named_values(arguments.reading, "a reading")
+    return chosen_specimen(arguments), Model(spectra, readings)
 
 
 def wavelength_range(text: str) -> np.ndarray:

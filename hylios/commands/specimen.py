@@ -24,32 +24,32 @@ def add_to(commands) -> None:
     )
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Print a table, or TOML."""
-    chosen = chosen_specimen(asked)
-    print(specimen_toml(chosen) if asked.toml else described(chosen), end="")
+    specimen = chosen_specimen(arguments)
+    print(specimen_toml(specimen) if arguments.toml else described(specimen), end="")
 
 
 def described(specimen: Specimen) -> str:
     """The specimen as a table in aligned columns, and below it the sources of the ranges."""
-    sources = list(dict.fromkeys(known.source for known in PHYSIOLOGY.values()))
+    sources = list(dict.fromkeys(limits.source for limits in PHYSIOLOGY.values()))
     rows = [
         COLUMNS,
         ("name", specimen.name, *[""] * 5),
         ("melanosome_arrangement", specimen.melanosome_arrangement, *[""] * 4, _one_of()),
     ]
-    for each in parameters():
-        known, value = PHYSIOLOGY[each.name], getattr(specimen, each.name)
-        inside = "" if known.holds(value) else ", outside"
+    for parameter in parameters():
+        limits, value = PHYSIOLOGY[parameter.name], getattr(specimen, parameter.name)
+        inside = "" if limits.holds(value) else ", outside"
         rows.append(
             (
-                each.name,
+                parameter.name,
                 f"{value:.9g}",
-                each.metadata["unit"],
-                f"{known.low:g} to {known.high:g}{inside}",
-                f"({sources.index(known.source) + 1})",
-                _origin(specimen, each),
-                each.metadata["what"],
+                parameter.metadata["unit"],
+                f"{limits.low:g} to {limits.high:g}{inside}",
+                f"({sources.index(limits.source) + 1})",
+                _origin(specimen, parameter),
+                parameter.metadata["what"],
             )
         )
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

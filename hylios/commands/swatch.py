@@ -44,26 +44,35 @@ def add_to(commands) -> None:
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png")
 
 
-def run(asked: argparse.Namespace) -> None:
+def run(arguments: argparse.Namespace) -> None:
     """Read or simulate, and write."""
-    require_target(asked.output, (".png",), asked.force)
-    size = require_whole("size", asked.size, 1, 4096)
-    if asked.files and (asked.specimen or asked.set or asked.reading or asked.own_spectrum):
+    require_target(arguments.output, (".png",), arguments.force)
+    size = require_whole("size", arguments.size, 1, 4096)
+    if arguments.files and (
+        arguments.specimen or arguments.set or arguments.reading or arguments.own_spectrum
+    ):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
-    _require_room(max(len(asked.files), 1), size)
-    spectra = read_spectra(asked.files) if asked.files else [_simulated(asked)]
+    _require_room(max(len(arguments.files), 1), size)
+    spectra = read_spectra(arguments.files) if arguments.files else [_simulated(arguments)]
 
     from hylios.lab.colour import srgb, swatch
     from hylios.lab.pictures import swatches, write_pixels
 
     colours = srgb(
-        np.array([swatch(each.wavelengths, each.reflectance, asked.band) for each in spectra])
+        np.array(
+            [
+                swatch(spectrum.wavelengths, spectrum.reflectance, arguments.band)
+                for spectrum in spectra
+            ]
+        )
     )
     pixels = swatches(colours, size)
-    write_pixels(pixels, asked.output)
+    write_pixels(pixels, arguments.output)
     codes = ("#{:02x}{:02x}{:02x}".format(*pixel) for pixel in pixels[0, ::size])
-    named = ", ".join(f"{each.name} {code}" for each, code in zip(spectra, codes, strict=True))
-    print(f"wrote {shown(asked.output)}: {named}")
+    named = ", ".join(
+        f"{spectrum.name} {code}" for spectrum, code in zip(spectra, codes, strict=True)
+    )
+    print(f"wrote {shown(arguments.output)}: {named}")
 
 
 def _require_room(count: int, size: int) -> None:
@@ -76,22 +85,22 @@ def _require_room(count: int, size: int) -> None:
         )
 
 
-def _simulated(asked: argparse.Namespace) -> NamedSpectrum:
+def _simulated(arguments: argparse.Namespace) -> NamedSpectrum:
     """The spectrum of the specimen asked for over the band."""
     from hylios.lab.colour import BANDS
     from hylios.transport.simulate import spectrum  # numba: only when light is asked for
 
-    require_work(asked)
-    specimen, model = chosen_skin(asked)
-    first, last = BANDS[asked.band]
-    step = require_range("step", asked.step, 1.0, last - first, "nm")
+    require_work(arguments)
+    specimen, model = chosen_skin(arguments)
+    first, last = BANDS[arguments.band]
+    step = require_range("step", arguments.step, 1.0, last - first, "nm")
     result = spectrum(
         specimen,
         np.linspace(first, last, round((last - first) / step) + 1),
-        angle=asked.angle,
-        rays=asked.rays,
-        seed=asked.seed,
-        threads=asked.threads,
+        angle=arguments.angle,
+        rays=arguments.rays,
+        seed=arguments.seed,
+        threads=arguments.threads,
         model=model,
     )
     note_estimates(model, result.wavelengths)

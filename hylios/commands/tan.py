@@ -4,10 +4,10 @@ import argparse
 from itertools import chain
 
 from hylios.commands.dose_arguments import (
-    add_chosen_arguments,
     add_exposure_arguments,
-    chosen,
+    add_skin_in_light_arguments,
     chosen_doses,
+    skin_in_light,
 )
 from hylios.commands.shell import number, print_rows
 from hylios.commands.streams import progress
@@ -20,7 +20,7 @@ def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
     parser = commands.add_parser("tan", help="melanin and thickness over time")
     parser.set_defaults(command=run)
-    add_chosen_arguments(parser)
+    add_skin_in_light_arguments(parser)
     add_exposure_arguments(parser)
     parser.add_argument("--hours", type=int, default=720, help="last hour (720)")
     parser.add_argument(
@@ -32,7 +32,7 @@ def add_to(commands) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Simulate and print, a part after the other: a century by minutes has 53 million rows."""
-    of = chosen(arguments)
+    of = skin_in_light(arguments)
     step = _step(arguments.step)
     parts = simulate_in_parts(
         chosen_doses(arguments, of).exposures(),

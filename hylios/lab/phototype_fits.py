@@ -38,13 +38,14 @@ def as_toml(name: str, fit: Fit) -> str:
     """A type's table of `fitted.toml`, with what the fit leaves open."""
     measured = people(name)
     colours = (
-        linear_rec709(measured.wavelengths, each) for each in (fit.observed, measured.reflectance)
+        linear_rec709(measured.wavelengths, spectrum)
+        for spectrum in (fit.observed, measured.reflectance)
     )
     values = {
         "rmse": f"{fit.rmse:.4f}",
         "ciede2000": f"{difference(*colours):.2f}",
         "melanin": f"{100.0 * fit.specimen.pigmentation:.5g}",
-        **{each: f"{getattr(fit.specimen, each):.5g}" for each in FITTED},
+        **{name: f"{getattr(fit.specimen, name):.5g}" for name in FITTED},
     }
     remarks = (f"# {remark}" for remark in fit.remarks())
     lines = (f"{key} = {value}" for key, value in values.items())

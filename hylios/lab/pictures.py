@@ -19,16 +19,16 @@ def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
     """Reflectance over wavelength, one line each, with a band of one standard error each way."""
     figure = Figure(figsize=SIZE_INCHES, dpi=DOTS_PER_INCH, layout="constrained")
     axes = figure.add_subplot()
-    for number, each in enumerate(spectra):
-        marker = "o" if each.wavelengths.size == 1 else None
+    for number, spectrum in enumerate(spectra):
+        marker = "o" if spectrum.wavelengths.size == 1 else None
         (line,) = axes.plot(
-            each.wavelengths, each.reflectance, label=f"spectrum {number}", marker=marker
+            spectrum.wavelengths, spectrum.reflectance, label=f"spectrum {number}", marker=marker
         )
-        if each.standard_error is not None:
+        if spectrum.standard_error is not None:
             axes.fill_between(
-                each.wavelengths,
-                each.reflectance - each.standard_error,
-                each.reflectance + each.standard_error,
+                spectrum.wavelengths,
+                spectrum.reflectance - spectrum.standard_error,
+                spectrum.reflectance + spectrum.standard_error,
                 color=line.get_color(),
                 alpha=BAND_OPACITY,
                 linewidth=0.0,
@@ -38,9 +38,9 @@ def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
     axes.set_ylim(bottom=0.0)
     axes.margins(x=0.0)
     axes.grid(alpha=0.3)
-    for text, each in zip(axes.legend().get_texts(), spectra, strict=True):
+    for text, spectrum in zip(axes.legend().get_texts(), spectra, strict=True):
         text.set_parse_math(False)  # a name may hold a $ or begin with _
-        text.set_text(each.name)
+        text.set_text(spectrum.name)
     return figure
 
 

@@ -168,10 +168,10 @@ def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Tab
     numbers, texts = {}, {}
     cells, factors = {}, {}
     for quantity in quantities:
-        found = place(layout.titles, quantity)
-        if found is None:
+        position = place(layout.titles, quantity)
+        if position is None:
             continue
-        number, unit = found
+        number, unit = position
         column = [(row.line, row.cells[number]) for row in layout.rows]
         if quantity.is_text:
             texts[quantity.name] = [cell for _, cell in column]

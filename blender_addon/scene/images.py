@@ -89,6 +89,6 @@ def replace(
         if image.users > image.use_fake_user:  # nodes of the artist's own show it
             image.user_remap(replaced[image])
     names = {replaced[image]: name for image, name in former.items()}
-    bpy.data.batch_remove(former)
+    bpy.data.batch_remove(list(former))
     for image, name in names.items():
         image.name = name

@@ -245,8 +245,8 @@ def compare(arguments: argparse.Namespace) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m examples.agreement", description=__doc__)
-    parser.add_argument("--rays", type=int, default=10_000_000, help="per pair")
-    parser.add_argument("--resume", action="store_true", help="keep the pairs that are there")
+    parser.add_argument("--rays", type=int, default=10_000_000, help="rays for a pair")
+    parser.add_argument("--resume", action="store_true", help="keep the pairs that the file holds")
     parser.add_argument("-o", "--output", type=Path, default=DEFAULT, metavar="FILE.csv")
     add_work_arguments(parser)
     return parser

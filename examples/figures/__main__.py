@@ -54,13 +54,13 @@ def main() -> int:
     names = ", ".join(name for group in GROUPS for name in group.FIGURES)
     parser = argparse.ArgumentParser(prog="python -m examples.figures", description=__doc__)
     parser.add_argument(
-        "names", nargs="*", help=f"which: a letter or number for several; all are {names}"
+        "names", nargs="*", help=f"figures to draw; a letter or number draws several: {names}"
     )
-    parser.add_argument("--rays", type=int, default=Effort.rays, help="per wavelength")
+    parser.add_argument("--rays", type=int, default=Effort.rays, help="rays for a wavelength")
     parser.add_argument("--seed", type=int, default=Effort.seed)
-    parser.add_argument("--threads", type=int, help="default: all cores")
+    parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument(
-        "--people", type=Path, help="measured skin to draw beside ours: wavelength_nm,s1,..."
+        "--people", type=Path, help="measured skin to draw beside ours: CSV of wavelength_nm,s1,..."
     )
     parser.add_argument("--out", type=Path, default=Path("out/figures"))
     return run(figures, parser.parse_args())

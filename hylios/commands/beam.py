@@ -18,12 +18,20 @@ def add_beam_arguments(parser: argparse.ArgumentParser, *, wavelength: float, an
     add_skin_arguments(parser)
     add_work_arguments(parser)
     parser.add_argument(
-        "--wavelength", type=float, default=wavelength, help=f"nm (default {wavelength:g})"
+        "--wavelength",
+        type=float,
+        default=wavelength,
+        help=f"wavelength in nm (default: {wavelength:g})",
     )
     parser.add_argument(
-        "--angle", type=float, default=angle, help=f"of incidence, degrees (default {angle:g})"
+        "--angle",
+        type=float,
+        default=angle,
+        help=f"angle of incidence in degrees (default: {angle:g})",
     )
-    parser.add_argument("--rays", type=int, default=1_000_000, help="default: a million")
+    parser.add_argument(
+        "--rays", type=int, default=1_000_000, help="number of rays (default: a million)"
+    )
 
 
 def simulated(

@@ -23,8 +23,12 @@ def add_to(commands) -> None:
     )
     parser.set_defaults(command=run)
     add_beam_arguments(parser, wavelength=550.0, angle=45.0)
-    parser.add_argument("--polar-bins", type=int, default=18, help="in 0 to 90 degrees")
-    parser.add_argument("--azimuth-bins", type=int, default=12, help="in 0 to 180 degrees")
+    parser.add_argument(
+        "--polar-bins", type=int, default=18, help="bins of polar angle, 0 to 90 degrees"
+    )
+    parser.add_argument(
+        "--azimuth-bins", type=int, default=12, help="bins of azimuth, 0 to 180 degrees"
+    )
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -48,18 +48,18 @@ from hylios.tissue import SPECTRA, Model
 
 USUAL_SKY = ClearSky()
 SKY = {
-    "ozone": ("DU", "ozone column"),
-    "altitude": ("M", "over the sea"),
+    "ozone": ("DU", "ozone column in Dobson units"),
+    "altitude": ("M", "metres above the sea"),
     "aerosol": ("DEPTH", "optical depth of the aerosol at 500 nm"),
-    "albedo": ("SHARE", "of the ground in the ultraviolet, snow 0.8"),
+    "albedo": ("SHARE", "share of ultraviolet that the ground reflects; snow 0.8"),
 }
 """Options that say what the air is like: `ClearSky`'s names, with their units and meaning."""
 
 EXPOSURES = """\
-Exposures of all kinds can be given together, each repeatedly; hours count from the beginning. Doses
-in SED, MMD or by UV index act as they are. Those of the sun or a spectrum are weighed by action
-spectra and the specimen's absorptance; the action spectrum of melanogenesis is PROVISIONAL. The sun
-shines from a clear sky on level skin.
+Exposures of all kinds can be given together, and every kind repeatedly. Hours count from the
+beginning. Doses in SED, in MMD or by UV index act as they are. Doses of the sun or of a spectrum
+are weighed by action spectra and the specimen's absorptance; the action spectrum of melanogenesis
+is PROVISIONAL. The sun shines from a clear sky on level skin.
 """
 
 
@@ -101,35 +101,45 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `chosen_doses` reads."""
     exposures = parser.add_argument_group("exposures", EXPOSURES)
     for option, metavar, help_text in (
-        ("--dose", "HOUR:AMOUNT", "amount in SED, as 30 or 30SED, or in the skin's MMD, as 2.5MMD"),
-        ("--uv-index", "HOUR:INDEX:HOURS", "hours at a UV index; one hour at 1 is 0.9 SED"),
-        ("--spectrum", "HOUR:FILE:SECONDS", "CSV: wavelength_nm,irradiance_w_m2_nm"),
-        ("--sun", "DATE:FROM-TO", "hours of a day such as 2025-06-21:10-16:30; see --latitude"),
+        ("--dose", "HOUR:AMOUNT", "dose in SED, such as 30 or 30SED, or in MMD, such as 2.5MMD"),
+        ("--uv-index", "HOUR:INDEX:HOURS", "hours at a UV index; an hour at index 1 is 0.9 SED"),
+        ("--spectrum", "HOUR:FILE:SECONDS", "lamp: CSV of wavelength_nm,irradiance_w_m2_nm"),
+        ("--sun", "DATE:FROM-TO", "hours of a day such as 2025-06-21:10-16:30; needs --latitude"),
     ):
         exposures.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
     sun = parser.add_argument_group("sun")
-    sun.add_argument("--start", metavar="DATE", help="hour 0 is its midnight (default: first sun)")
+    sun.add_argument(
+        "--start", metavar="DATE", help="day whose midnight is hour 0 (default: the first --sun)"
+    )
     for option, metavar, help_text in (
-        ("--latitude", "DEGREES", "north positive; hours are then local solar time, noon at 12"),
-        ("--longitude", "DEGREES", "east positive; hours are then a clock's, see --utc-offset"),
-        ("--utc-offset", "HOURS", "of that clock, with daylight saving (default 0)"),
+        ("--latitude", "DEGREES", "latitude, north positive; --sun is in solar time, noon at 12"),
+        (
+            "--longitude",
+            "DEGREES",
+            "longitude, east positive; --sun is then in the time of a clock",
+        ),
+        ("--utc-offset", "HOURS", "of that clock, daylight saving included (default: 0)"),
     ):
         sun.add_argument(option, type=float, metavar=metavar, help=help_text)
     for name, (metavar, help_text) in SKY.items():
         usual = f"{help_text} ({getattr(USUAL_SKY, name):g})"
         sun.add_argument(f"--{name}", type=float, metavar=metavar, help=usual)
-    over = parser.add_argument_group("protection", "Over the skin at all exposures.")
-    over.add_argument("--spf", type=float, help="of a sunscreen at 2 mg/cm^2; grey")
+    over = parser.add_argument_group("protection", "What covers the skin at all exposures.")
+    over.add_argument("--spf", type=float, help="a sunscreen's factor at 2 mg/cm^2; grey")
     over.add_argument(
         "--sunscreen",
         type=Path,
         metavar="FILE",
-        help="CSV: wavelength_nm,transmittance (or absorbance) at 2 mg/cm^2, 290 to 400 nm",
+        help="a sunscreen at 2 mg/cm^2 as CSV of wavelength_nm,transmittance (or absorbance), 290 "
+        "to 400 nm",
     )
     over.add_argument(
-        "--sunscreen-amount", type=float, metavar="MG", help="mg/cm^2 (2); people apply 0.5 to 1"
+        "--sunscreen-amount",
+        type=float,
+        metavar="MG",
+        help="mg/cm^2 of sunscreen (default: 2); people apply 0.5 to 1",
     )
-    over.add_argument("--upf", type=float, help="of cloth; grey")
+    over.add_argument("--upf", type=float, help="the protection factor of cloth; grey")
 
 
 def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:

@@ -25,8 +25,9 @@ def add_to(commands) -> None:
     parser = commands.add_parser(
         "fit",
         help="a specimen that reflects like measured skin",
-        description="Prints the fitted specimen as TOML, which every --specimen takes; what the "
-        "data do not determine is said in comments. The start is --specimen with --set.",
+        description="Prints the fitted specimen as TOML, which all commands read with --specimen. "
+        "Comments in it say what the data do not determine. The fit starts from --specimen "
+        "and --set.",
     )
     parser.set_defaults(command=run)
     add_skin_arguments(parser)
@@ -35,15 +36,22 @@ def add_to(commands) -> None:
         "--spectrum",
         type=Path,
         metavar="FILE",
-        help="CSV with a column wavelength_nm and one of reflectance, 0 to 1",
+        help="a measured spectrum: CSV of wavelength_nm and reflectance, 0 to 1",
     )
-    data.add_argument("--srgb", metavar="R,G,B", help="a colour under D65, 0 to 255 each")
-    parser.add_argument("--column", default="total", help="that holds the reflectance")
+    data.add_argument(
+        "--srgb", metavar="R,G,B", help="a measured colour under D65: three numbers from 0 to 255"
+    )
     parser.add_argument(
-        "--wavelengths", help="nm, FIRST:LAST:STEP or a,b,c (default: at most 61 of the file's)"
+        "--column", default="total", help="column of --spectrum that holds reflectance"
     )
-    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
-    parser.add_argument("--free", help="what may change, by name, with commas between")
+    parser.add_argument(
+        "--wavelengths",
+        help="wavelengths in nm: FIRST:LAST:STEP or a,b,c (default: at most 61 of the file's)",
+    )
+    parser.add_argument(
+        "--angle", type=float, default=8.0, help="angle of incidence in degrees (default: 8)"
+    )
+    parser.add_argument("--free", help="names of what may change, with commas between")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -14,10 +14,12 @@ def add_to(commands) -> None:
         "plot",
         help="spectra as PNG or SVG",
         description="Draws CSV files as `hylios reflectance` prints them: the column total over "
-        "wavelength_nm, with a band of one standard_error each way where there is that column.",
+        "wavelength_nm, and a band of one standard_error to both sides if there is that column.",
     )
     parser.set_defaults(command=run)
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE.csv", help="- is stdin")
+    parser.add_argument(
+        "files", nargs="+", type=Path, metavar="FILE.csv", help="spectra; - is standard input"
+    )
     parser.add_argument("--force", action="store_true", help="replace an existing file")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png|FILE.svg")
 

@@ -20,14 +20,20 @@ radius is 4 pi 1.04 d = 13.07 d. With --fit there is one row only: the reflectan
 def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
     parser = commands.add_parser(
-        "profile", help="radial exitance of a specimen, and Burley's width", description=DESCRIPTION
+        "profile",
+        help="radial exitance of a specimen, and the width of Burley's profile",
+        description=DESCRIPTION,
     )
     parser.set_defaults(command=run)
     add_beam_arguments(parser, wavelength=633.0, angle=0.0)
-    parser.add_argument("--smallest", type=float, default=0.01, help="first ring's radius, mm")
-    parser.add_argument("--largest", type=float, default=100.0, help="last ring's radius, mm")
-    parser.add_argument("--rings", type=int, default=60)
-    parser.add_argument("--fit", action="store_true", help="only the fitted width, as CSV")
+    parser.add_argument(
+        "--smallest", type=float, default=0.01, help="radius of the first ring in mm"
+    )
+    parser.add_argument(
+        "--largest", type=float, default=100.0, help="radius of the last ring in mm"
+    )
+    parser.add_argument("--rings", type=int, default=60, help="number of rings (default: 60)")
+    parser.add_argument("--fit", action="store_true", help="print only the fitted width, as CSV")
 
 
 def run(arguments: argparse.Namespace) -> None:

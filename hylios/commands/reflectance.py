@@ -19,13 +19,21 @@ def add_to(commands) -> None:
     parser.set_defaults(command=run)
     add_skin_arguments(parser)
     add_work_arguments(parser)
-    parser.add_argument("--wavelengths", default="400:700:10", help="nm, FIRST:LAST:STEP or a,b,c")
-    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
-    parser.add_argument("--rays", type=int, default=100_000, help="per wavelength")
+    parser.add_argument(
+        "--wavelengths",
+        default="400:700:10",
+        help="wavelengths in nm: FIRST:LAST:STEP or a,b,c (default: 400:700:10)",
+    )
+    parser.add_argument(
+        "--angle", type=float, default=8.0, help="angle of incidence in degrees (default: 8)"
+    )
+    parser.add_argument(
+        "--rays", type=int, default=100_000, help="rays for a wavelength (default: 100000)"
+    )
     parser.add_argument(
         "--as-printed",
         action="store_true",
-        help="walk as the thesis prints it, loop by loop (same model, slower)",
+        help="walk rays loop by loop, as the thesis prints it (the same model, slower)",
     )
 
 

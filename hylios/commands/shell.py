@@ -88,12 +88,12 @@ def add_specimen_arguments(parser: argparse.ArgumentParser, *where: str, **how) 
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="set a parameter of the specimen (hylios specimen lists them); repeatable",
+        help="set a parameter of the specimen (`hylios specimen` lists them); repeatable",
     )
     parser.add_argument(
         "--allow-unphysical",
         action="store_true",
-        help="take parameters outside their physiological range",
+        help="accept parameters outside their physiological range",
     )
 
 
@@ -108,7 +108,7 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
     add_specimen_arguments(parser, "--specimen")
     for option, metavar, help_text in (
         ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
-        ("--own-spectrum", "NAME=FILE", "a spectrum of your own: CSV of nm and value"),
+        ("--own-spectrum", "NAME=FILE", "your own spectrum of an absorber: CSV of nm and value"),
         ("--figure", "NAME=FILE", argparse.SUPPRESS),  # what --own-spectrum was called
     ):
         parser.add_argument(
@@ -126,15 +126,18 @@ def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--skin",
         choices=PHOTOTYPES,
-        help="skin type, in place of a specimen: that type's specimen, tanning as the type does",
+        help="a skin type in place of --specimen: its specimen, and how it tans",
     )
     parser.add_argument(
         "--pigmentation",
         choices=list(PIGMENTATIONS),
-        help="tanning set of table 6.4 (default: the specimen's or the type's)",
+        help="set of tanning rates from table 6.4 (default: the specimen's or the type's)",
     )
-    parser.add_argument("--mmd", type=float, help="minimal melanogenesis dose, SED (default: 3.2)")
-    parser.add_argument("--med", type=float, help="minimal erythema dose, SED (default: 3.1)")
+    for option, help_text in (
+        ("--mmd", "minimal melanogenesis dose in SED, which tans (default: 3.2)"),
+        ("--med", "minimal erythema dose in SED, which reddens (default: 3.1)"),
+    ):
+        parser.add_argument(option, type=float, metavar="SED", help=help_text)
     parser.add_argument(
         "--tanning",
         action="append",
@@ -146,8 +149,8 @@ def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_work_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of every simulation, which `require_work` checks."""
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--threads", type=int, help="default: all cores")
+    parser.add_argument("--seed", type=int, default=1, help="seed of random numbers (default: 1)")
+    parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
 
 
 def require_work(arguments: argparse.Namespace) -> None:

@@ -16,12 +16,12 @@ WIDTH = 100
 
 def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
-    parser = commands.add_parser("specimen", help="parameters of a specimen, ranges and sources")
+    parser = commands.add_parser(
+        "specimen", help="parameters of a specimen, with ranges and sources"
+    )
     parser.set_defaults(command=run)
     add_specimen_arguments(parser, "specimen", nargs="?", metavar="NAME|FILE.toml")
-    parser.add_argument(
-        "--toml", action="store_true", help="as a file that --specimen FILE.toml reads"
-    )
+    parser.add_argument("--toml", action="store_true", help="print a file for --specimen FILE.toml")
 
 
 def run(arguments: argparse.Namespace) -> None:

@@ -32,14 +32,24 @@ def add_to(commands) -> None:
         "swatch", help="colour of a spectrum or a specimen, as PNG", description=DESCRIPTION
     )
     parser.set_defaults(command=run)
-    parser.add_argument("files", nargs="*", type=Path, metavar="FILE.csv", help="- is stdin")
+    parser.add_argument(
+        "files", nargs="*", type=Path, metavar="FILE.csv", help="spectra; - is standard input"
+    )
     add_skin_arguments(parser)
     add_work_arguments(parser)
     parser.add_argument("--band", choices=("visible", "uv", "ir"), default="visible")
-    parser.add_argument("--angle", type=float, default=8.0, help="of incidence, degrees")
-    parser.add_argument("--step", type=float, default=5.0, help="between wavelengths, nm")
-    parser.add_argument("--rays", type=int, default=10_000, help="per wavelength")
-    parser.add_argument("--size", type=int, default=256, help="of a square, pixels")
+    parser.add_argument(
+        "--angle", type=float, default=8.0, help="angle of incidence in degrees (default: 8)"
+    )
+    parser.add_argument(
+        "--step", type=float, default=5.0, help="nm from wavelength to wavelength (default: 5)"
+    )
+    parser.add_argument(
+        "--rays", type=int, default=10_000, help="rays for a wavelength (default: 10000)"
+    )
+    parser.add_argument(
+        "--size", type=int, default=256, help="side of a square in pixels (default: 256)"
+    )
     parser.add_argument("--force", action="store_true", help="replace an existing file")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png")
 

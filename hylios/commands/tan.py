@@ -18,15 +18,15 @@ COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
 
 def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
-    parser = commands.add_parser("tan", help="melanin and thickness over time")
+    parser = commands.add_parser("tan", help="melanin and thickness of the epidermis over time")
     parser.set_defaults(command=run)
     add_skin_in_light_arguments(parser)
     add_exposure_arguments(parser)
-    parser.add_argument("--hours", type=int, default=720, help="last hour (720)")
+    parser.add_argument("--hours", type=int, default=720, help="last hour (default: 720)")
     parser.add_argument(
         "--step",
         default="1",
-        help="hours from row to row: 1 to 24, or a part of one such as 1/60 (1)",
+        help="hours from row to row: 1 to 24, or a part of an hour such as 1/60 (default: 1)",
     )
 
 

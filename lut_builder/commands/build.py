@@ -49,8 +49,8 @@ def add_build(commands) -> None:
         "--untanned",
         choices=list(UNTANNED),
         default="steady_state",
-        help="skin without sun: 5.16 as printed, melanin by the tanning set's steady state, or "
-        "the specimen's own distribution",
+        help="melanin of skin without sun: the tanning set's steady state (equation 5.16), or "
+        "the specimen's own",
     )
     _add_settings_arguments(parser)
     _add_scene_arguments(parser)
@@ -59,25 +59,36 @@ def add_build(commands) -> None:
 
 def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
     """What `_settings` reads."""
-    parser.add_argument("--preset", choices=list(PRESETS), default="standard")
-    add_limit_arguments(parser)
-    parser.add_argument("--knots", help="numbers of knots per axis, such as 9,3,2")
-    parser.add_argument("--wavelengths", type=int, help="from which colours are made, 4 to 16")
     parser.add_argument(
-        "--bands", help="what to hold: visible and wavelengths in nm, such as visible,365,1100"
+        "--preset",
+        choices=list(PRESETS),
+        default="standard",
+        help="accuracy of the table (default: standard)",
+    )
+    add_limit_arguments(parser)
+    parser.add_argument("--knots", help="number of knots on every axis, such as 9,3,2")
+    parser.add_argument(
+        "--wavelengths", type=int, help="number of wavelengths that make a colour, 4 to 16"
+    )
+    parser.add_argument(
+        "--bands", help="what the table holds: visible and wavelengths in nm, as visible,365,1100"
     )
     parser.add_argument(
         "--profile-error",
         type=float,
-        help="standard error of light skin's cumulative diffusion profile; dark skin's is larger, "
-        "as it shows less",
+        help="standard error of light skin's cumulative diffusion profile; dark skin's, which "
+        "shows less, is larger",
     )
     parser.add_argument(
-        "--no-profile", action="store_true", help="no diffusion profile: for renders without"
+        "--no-profile",
+        action="store_true",
+        help="hold no diffusion profile: for renders without subsurface light",
     )
-    parser.add_argument("--nodes", type=int, help="directions of the solver, 6 to 200")
-    parser.add_argument("--interpolation", choices=INTERPOLATIONS, help="between the knots")
-    parser.add_argument("--half", action="store_true", help="store numbers of 16 bits")
+    parser.add_argument("--nodes", type=int, help="number of directions in the solver, 6 to 200")
+    parser.add_argument(
+        "--interpolation", choices=INTERPOLATIONS, help="interpolation between the knots"
+    )
+    parser.add_argument("--half", action="store_true", help="store numbers in 16 bits")
 
 
 def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
@@ -89,7 +100,9 @@ def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
         "melanogenesis_sed, thickening_sed, as `hylios dose` prints and the add-on exports",
     )
     parser.add_argument(
-        "--days", type=float, help=f"that the schedule's scene lasts ({SCENE_DAYS:g})"
+        "--days",
+        type=float,
+        help=f"days that the scene of --schedule lasts (default: {SCENE_DAYS:g})",
     )
 
 

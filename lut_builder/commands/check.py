@@ -16,23 +16,26 @@ LEAST_RAYS, MOST_RAYS = 100, 10**9
 
 def add_check(commands) -> None:
     """Add the command to an argument parser's commands."""
-    parser = commands.add_parser("check", help="compare a table with the model between knots")
+    parser = commands.add_parser("check", help="compare a table with the model between its knots")
     parser.set_defaults(command=check_table)
     parser.add_argument("table", type=Path)
-    parser.add_argument("--states", type=int, default=200, help="between the knots (200)")
+    parser.add_argument(
+        "--states", type=int, default=200, help="number of states to compare (default: 200)"
+    )
     parser.add_argument(
         "--rays",
         type=int,
         default=0,
-        help="per wavelength of a random walk (default: the solver, without noise)",
+        help="compare with a random walk of so many rays for a wavelength (default: with the "
+        "solver, which has no noise)",
     )
     parser.add_argument(
         "--own-spectrum",
         action="append",
         default=[],
         metavar="NAME=FILE",
-        help="a spectrum of your own that the table was made with: it is not looked for where the "
-        "table says it was; repeatable",
+        help="a spectrum of your own that the table was made with, read from this file and not "
+        "from where the table says it was; repeatable",
     )
     add_work_arguments(parser)
 

@@ -1,4 +1,4 @@
-"""`lut-builder info`: what a table is."""
+"""`lut-builder info`: what a table holds, and how good its numbers are."""
 
 import argparse
 from pathlib import Path
@@ -14,7 +14,7 @@ ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
 
 def add_info(commands) -> None:
     """Add the command to an argument parser's commands."""
-    parser = commands.add_parser("info", help="say what a table is")
+    parser = commands.add_parser("info", help="describe a table")
     parser.set_defaults(command=info)
     parser.add_argument("table", type=Path)
 

@@ -12,10 +12,14 @@ def add_limit_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that the other functions here read."""
     limit = parser.add_mutually_exclusive_group()
     limit.add_argument(
-        "--max-delta-e", type=float, help="the fastest table measured with no larger CIEDE2000"
+        "--max-delta-e",
+        type=float,
+        help="take the fastest table whose measured CIEDE2000 is no larger",
     )
     limit.add_argument(
-        "--max-seconds", type=float, help="the best table measured to take no more seconds"
+        "--max-seconds",
+        type=float,
+        help="take the most accurate table measured to need no more seconds",
     )
     parser.add_argument(
         "--front",

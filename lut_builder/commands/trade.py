@@ -29,7 +29,9 @@ from lut_builder.trade.points import Point, described, usable_cores, write_point
 
 def add_trade(commands) -> None:
     """Add the command to an argument parser's commands."""
-    parser = commands.add_parser("trade", help="measure time against error, here and for a skin")
+    parser = commands.add_parser(
+        "trade", help="measure time against error of tables, on this machine and for a skin"
+    )
     parser.set_defaults(command=trade)
     add_skin_arguments(parser)
     add_work_arguments(parser)
@@ -40,17 +42,19 @@ def add_trade(commands) -> None:
         choices=PHOTOTYPES,
         action="append",
         default=[],
-        help="a skin type for which tables are to do as well; repeatable",
+        help="another skin type that tables must suit; repeatable",
     )
-    parser.add_argument("--quick", action="store_true", help="seconds, to see that it works")
+    parser.add_argument(
+        "--quick", action="store_true", help="measure for some seconds only, to see that it works"
+    )
     parser.add_argument("--force", action="store_true", help="replace existing files")
     parser.add_argument(
         "-o",
         "--output",
         type=Path,
         metavar="FILE.png",
-        help="measure anew (minutes): the picture, with the front and its parts as CSV beside it; "
-        "without it the front measured before is shown",
+        help="measure anew (minutes) and draw the front into this picture, with CSV files of the "
+        "front and its parts beside it (default: print the front measured before)",
     )
 
 

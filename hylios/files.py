@@ -26,7 +26,10 @@ def regular_bytes(path: Path, most: int) -> bytes:
         if not stat.S_ISREG(os.stat(path).st_mode):
             raise InputError(f"{name} cannot be read: it is no regular file.")
         with path.open("rb") as file:
-            data = file.read(most + 1)
+            # All of `most` would be reserved, were it asked for at once.
+            data = file.read(min(os.fstat(file.fileno()).st_size, most) + 1)
+            while len(data) <= most and (more := file.read(2**16)):
+                data += more
     except InputError:
         raise
     except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError

@@ -1,9 +1,9 @@
 """Reading a table's file."""
 
-import os
 from pathlib import Path
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
+from hylios.files import regular_bytes
 from hylios.table.exr_reader import Picture, parse
 from hylios.table.schema import FORMAT
 from hylios.table.skin_table import SkinTable
@@ -27,25 +27,11 @@ def read_table(path: Path) -> SkinTable:
     >>> import hylios
     >>> table = hylios.read_table(Path("skin.exr"))  # doctest: +SKIP
     """
-    data = _bytes(path)
+    data = regular_bytes(path, LARGEST_FILE)
     try:
         return from_stored(_stored(parse(data)))
     except InputError as error:
-        raise InputError(f"the table {path} cannot be used: {error}") from error
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        if path.exists() and not path.is_file():
-            # Some, such as pipes, would never end.
-            raise InputError(f"the table {path} cannot be read: it is no file.")
-        with path.open("rb") as file:
-            size = os.fstat(file.fileno()).st_size
-            if size > LARGEST_FILE:
-                raise InputError(f"the table {path} is larger than {LARGEST_FILE // 2**20} MiB.")
-            return file.read(size)
-    except OSError as error:
-        raise InputError(f"the table {path} cannot be read: {error.strerror}.") from error
+        raise InputError(f"the table {shown(path)} cannot be used: {error}") from error
 
 
 def _stored(picture: Picture) -> StoredTable:

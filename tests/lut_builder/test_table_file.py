@@ -174,7 +174,7 @@ def test_a_file_too_large_for_a_table_is_refused(tmp_path):
     path = tmp_path / "t.exr"
     with path.open("wb") as file:
         file.truncate(2**40)
-    with pytest.raises(InputError, match="is larger than 64 MiB"):
+    with pytest.raises(InputError, match="has more than 67108864 bytes"):
         read_table(path)
 
 

@@ -273,7 +273,7 @@ def test_what_could_not_be_read_is_not_written(table, change, sentence):
 
 def test_what_is_no_file_is_refused(tmp_path):
     os.mkfifo(tmp_path / "pipe.exr")
-    for name, sentence in (("pipe.exr", "it is no file"), ("none.exr", "No such file")):
+    for name, sentence in (("pipe.exr", "it is no regular file"), ("none.exr", "No such file")):
         with pytest.raises(InputError, match=f"cannot be read: {sentence}"):
             read_table(tmp_path / name)
 

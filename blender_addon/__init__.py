@@ -1,8 +1,8 @@
 """Skin that tans over the timeline, in Blender.
 
 - `model`: what to show, as numbers. Knows no Blender and runs without it.
-- `scene`: images, nodes, materials, keys, and to whom they belong. Knows no physics.
-- `apply`: from an object's settings through `model` to `scene`.
+- `scene`: images, nodes, materials and keys, and who owns them. Knows no physics.
+- `apply`: takes an object's settings through `model` to `scene`.
 - `props`, `ops`, `ui`: what an artist sets, the buttons, the panels.
 
 Imports go one way: ui -> ops -> apply -> props and scene, props -> model. What Apply leaves in a

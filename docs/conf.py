@@ -1,6 +1,6 @@
 """Sphinx's settings. `make docs` builds the site into out/docs, with warnings as errors.
 
-Sphinx with numpydoc reads the docstrings as they are, which MkDocs would need rewritten. MyST-NB
+Sphinx with numpydoc reads the docstrings as they are; MkDocs would need them rewritten. MyST-NB
 reads the pages in Markdown and runs the notebook. furo lays them out. Nothing is fetched: no
 intersphinx, no fonts or scripts of other sites.
 """

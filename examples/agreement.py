@@ -1,8 +1,9 @@
 """How well the solver without noise agrees with the random walk: `make agreement`.
 
 Both compute the reflectance at 8 degrees of S1 to S4 and of tanned skins, from 250 to 2500 nm. All
-pairs go to a CSV file, a skin at a time: after Ctrl-C, --resume goes on. The default of ten
-million rays takes hours; a tenth tells the mean as well, for the walk's own noise is subtracted.
+pairs go to a CSV file, skin by skin; after Ctrl-C, --resume goes on. The default of ten million
+rays takes hours. A tenth of them gives the mean just as well, for the walk's own noise is
+subtracted.
 """
 
 import argparse

@@ -5,10 +5,10 @@ T. F. Chen, "On the Modelling of Hyperspectral Light and Skin Interactions and t
 Skin Appearance Changes Due to Tanning" (PhD thesis, University of Waterloo). Docstrings cite its
 equations and tables by number.
 
-The names below are all that most work needs; each is loaded when it is first used. So importing
+The names below are all that most work needs. A name is loaded when it is first used, so importing
 this package takes no time, and numba, colour-science and scipy come in with the names that need
-them. The way is Python's own (PEP 562): the Blender add-on carries a part of this package and
-nothing else, so no helper package may be needed.
+them. Python's own way of doing so (PEP 562) needs no other package: the Blender add-on carries a
+part of this one and nothing else.
 """
 
 from importlib import import_module

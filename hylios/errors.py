@@ -1,4 +1,4 @@
-"""The one exception of this project for input that cannot be used, and what its sentences need."""
+"""The one exception for input that cannot be used, and the checks that raise it."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Files: read with a limit, written never over another one unasked and never half."""
+"""Files: read up to a limit, replaced only when that is asked for, and never left half written."""
 
 import os
 import stat

@@ -1,8 +1,9 @@
-"""Where doses, shares of them and days lead: tanning states, and the schedule file of a scene.
+"""Tanning states of a scene, by shares of its doses and by days; and the scene's schedule file.
 
-A body's places receive shares of a scene's doses, from none under cloth to all on bare skin. The
-add-on makes images of these histories, the builder a table of the states that they reach; both by
-the same shares and days, so that one holds what the other asks of it. No Blender; numpy only.
+A place on a body receives a share of the scene's doses, from none under cloth to all on bare skin.
+The add-on makes images of these histories, and the builder a table of the states that they reach.
+Both use the same shares and days, so the table holds what the add-on looks up. No Blender; numpy
+only.
 """
 
 from dataclasses import dataclass

@@ -2,7 +2,7 @@
 
 The matrices of the light model are so small that OpenBLAS's threads only wait for each other, for
 ten times the work's own time and more while other programs are busy. `one_thread` is the one
-guard against that. It needs no package, for Blender has none that does it.
+guard against that. It needs no package, because Blender's Python brings none for this.
 """
 
 import ctypes

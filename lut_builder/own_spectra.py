@@ -1,4 +1,4 @@
-"""Spectra of the user's own: what a table's header says of them, and whether they are the same."""
+"""Spectra of the user's own: what a table's header says, and whether a file still agrees."""
 
 import hashlib
 from collections.abc import Mapping

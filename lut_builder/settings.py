@@ -1,4 +1,4 @@
-"""How accurately a table is built, and what of a scene it is for."""
+"""How accurately a table is built, what it holds, and for which scene."""
 
 from dataclasses import dataclass
 

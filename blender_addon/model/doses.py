@@ -1,4 +1,4 @@
-"""Doses of ultraviolet from the exposures that an artist sets, by the hour of the tanning model."""
+"""Hourly doses of ultraviolet for the tanning model, from the exposures that an artist sets."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace

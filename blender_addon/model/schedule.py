@@ -1,4 +1,4 @@
-"""An object's doses as CSV, for a table that holds only what they lead to."""
+"""An object's doses as CSV, from which lut-builder makes a smaller table for this scene only."""
 
 from hylios.history import schedule_text
 

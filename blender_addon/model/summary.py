@@ -1,6 +1,7 @@
-"""What a panel says of a skin and of an exposure, in short lines.
+"""Short lines in which a panel describes a skin and an exposure.
 
-Panels are drawn many times a second: what takes longer than a look at a file's date is remembered.
+Panels are drawn many times a second. So whatever takes longer than reading a file's date is kept
+from one drawing to the next.
 """
 
 import functools

@@ -1,4 +1,4 @@
-"""A tan over time and share of the dose, as arrays for a shader to sample."""
+"""A tan by day and by share of the dose, as arrays that a shader samples."""
 
 from dataclasses import dataclass
 

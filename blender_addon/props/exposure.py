@@ -1,4 +1,4 @@
-"""One time in the sun."""
+"""What an artist sets of one exposure: one time in the sun."""
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty

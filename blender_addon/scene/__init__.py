@@ -1,4 +1,4 @@
-"""What Apply leaves in the scene: images, nodes, materials and keys, and whose they are.
+"""What Apply leaves in the scene: images, nodes, materials and keys, and who owns them.
 
-Knows no physics: arrays and numbers come in, data-blocks of Blender are made or changed.
+Knows no physics: it takes arrays and numbers, and makes or changes data-blocks of Blender.
 """

@@ -1,4 +1,4 @@
-"""Materials that show a tan: found through an object's slots, copied where others show them."""
+"""Materials that show a tan: found through an object's slots, copied if other objects show them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field

@@ -1,7 +1,8 @@
 """The node group of a tan: it samples two images by day and share of the dose.
 
-A node that this add-on makes says in a custom property what it is for, its role. Apply writes into
-nodes of a role the few values that it owns, and leaves all other nodes, links and values alone.
+A node that this add-on makes has a role, which says what it is for, in a custom property. Apply
+writes the few values that it owns into nodes with a role. It leaves all other nodes, links and
+values alone.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""Whose a data-block is: who shows it, and copies for one object alone.
+"""Which objects show a data-block, and copies of it for one object alone.
 
-Data-blocks are found by the pointers that lead to them, never by name. What only one object shows
-may be changed in place; of what others show too, the object gets a copy of its own.
+Data-blocks are found by the pointers that lead to them, never by name. A data-block that only one
+object shows may be changed in place. Where others show it too, the object gets its own copy.
 """
 
 from collections.abc import Iterable

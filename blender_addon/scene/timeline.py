@@ -1,4 +1,4 @@
-"""The day on the timeline: a keyed custom property of the object, which needs no script."""
+"""The day of the tan on the timeline: a keyed custom property of the object, without a script."""
 
 from typing import Any, cast
 

@@ -1,4 +1,4 @@
-"""The panel in the 3D view's sidebar: it shows values and remembered lines, computes nothing."""
+"""The panel in the 3D view's sidebar. It shows values and kept lines, and computes nothing."""
 
 from .exposures import SKIN_TAN_UL_exposures
 from .panel import VIEW3D_PT_skin_tan

@@ -1,7 +1,7 @@
 """Figures 6.21, B.1 and B.2: what single and few doses do to melanin and thickness.
 
-The doses are only plotted in the thesis, and the measurements beside them could not be had; what
-stands for the former is ASSUMED (`tans.py` and the constants here).
+The thesis only plots the doses; those used here are ASSUMED (`tans.py` and the constants here).
+The measurements that it plots beside them could not be had.
 """
 
 from collections.abc import Mapping

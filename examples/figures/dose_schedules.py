@@ -1,7 +1,7 @@
 """Figure 6.23: what weeks of doses of ultraviolet light do to melanin, thickness and colour.
 
-The schedules are only plotted in the thesis, and the measurements beside them could not be had;
-what stands for the former is ASSUMED (`tans.py`).
+The thesis only plots the schedules; those used here are ASSUMED (`tans.py`). The measurements that
+it plots beside them could not be had.
 """
 
 from collections.abc import Mapping

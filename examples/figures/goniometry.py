@@ -1,10 +1,10 @@
 """Figure 6.5: how far an epidermis turns the light that it lets through, at 302 nm.
 
 Measured by W. A. G. Bruls and J. C. van der Leun 1984
-(hylios/lab/predecessors/bruls_goniometry.csv). Their paper was not at hand: in which medium behind
-the isolated sample the angles were measured, and how thick the sample was, is not established. So
-the angles inside the tissue are compared first, as BioSpec uses them, and those after refraction
-into air beside them.
+(hylios/lab/predecessors/bruls_goniometry.csv). Their paper was not at hand. So it is not
+established how thick the isolated sample was, nor in which medium behind it the angles were
+measured. The angles inside the tissue are compared first, as BioSpec uses them; the angles after
+refraction into air stand beside them.
 """
 
 from collections.abc import Mapping

@@ -7,11 +7,14 @@ gives with the data coefficients of three lobes and a diffuse term after E. P. F
 Foo, K. E. Torrance and D. P. Greenberg 1997, "Non-Linear Approximation of Reflectance Functions".
 
 The samples themselves were not at hand. The coefficients are those that the renderer pbrt (M. Pharr
-and G. Humphreys, version 1) carries as its material "skin"; its blue paint is Cornell's. Not
-established: that they are the set of Cornell's Caucasian (a man of 43 years) and not of the other
-for whom it gives coefficients (a South Asian man of 23), which of its subjects figure 6.7 shows,
-and whether the channels stand in one order throughout (Cornell once had them reversed); so only
-their mean is used here, which no order changes.
+and G. Humphreys, version 1) carries as its material "skin"; its blue paint is Cornell's. Three
+things are not established:
+
+- whether the coefficients are those of Cornell's Caucasian (a man of 43 years) or of the other
+  subject for whom it gives coefficients (a South Asian man of 23);
+- which of Cornell's subjects figure 6.7 shows;
+- whether the channels stand in one order throughout, for Cornell once had them reversed. So only
+  their mean is used here, which no order changes.
 """
 
 import numpy as np

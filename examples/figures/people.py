@@ -1,6 +1,6 @@
-"""Measured people, each fitted by a specimen, where they are given: no figure of the thesis.
+"""Specimens fitted to measured people, where the user gives some: no figure of the thesis.
 
-And what keeps S3 from them: the people's median, fitted with one thing about the model changed.
+Also what keeps S3 from them: the people's median is fitted with one thing about the model changed.
 """
 
 import signal

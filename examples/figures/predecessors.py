@@ -2,7 +2,7 @@
 
 The measured curves 117 and 113 of figure 6.2 (M. J. Vrhel, R. Gershon and L. S. Iwan 1994,
 "Measurement and Analysis of Object Reflectance Spectra", Color Research and Application 19, 4 to 9)
-could not be had: no copy of the university's database was found. What stands for them is S1 and S2
+could not be had: no copy of the university's database was found. In their place stand S1 and S2
 themselves, and people's measured curves where the user gives them.
 """
 

@@ -1,7 +1,7 @@
 """Renders the shots of figures 6.24 to 6.29, each into a file NAME.npz, in a process of its own.
 
 `python -m examples.figures.scenes FOLDER [--scale S] [--samples N] [--stand-in] NAME...`; FOLDER
-has the tables. Blender 4.5 hangs in an ordinary exit after a render, so this one is not ordinary.
+has the tables. Blender 4.5 hangs in an ordinary exit after a render, so this one ends otherwise.
 """
 
 import argparse

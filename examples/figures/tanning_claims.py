@@ -1,4 +1,4 @@
-"""What section 6.2 says of tans without a number, measured: no figure of the thesis."""
+"""Measures what section 6.2 says of tans in words alone: no figure of the thesis."""
 
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence

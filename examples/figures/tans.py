@@ -1,7 +1,7 @@
 """What the figures of tans share: skins, dose schedules, and the colour of a tanning state.
 
-The thesis only plots its dose schedules. What is not printed anywhere is ASSUMED here, and said
-so in the pictures and the report.
+The thesis only plots its dose schedules. What is printed nowhere is ASSUMED here; the pictures and
+the report say so.
 """
 
 from collections.abc import Sequence

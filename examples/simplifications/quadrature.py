@@ -1,6 +1,6 @@
 """Chooses the wavelengths that hylios ships: `python -m examples.simplifications.quadrature`.
 
-A minute's work, the same every time; writes hylios/quadrature.csv.
+Writes hylios/quadrature.csv, in a minute and the same every time.
 """
 
 import argparse

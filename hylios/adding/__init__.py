@@ -1,6 +1,6 @@
 """Reflectance and absorptance of plane layers without random numbers.
 
-The model is the random walk's of `hylios.transport`, averaged instead of drawn; numpy only.
+The model is that of the random walk in `hylios.transport`, averaged instead of drawn. numpy only.
 """
 
 from hylios.adding.colours import StateColours, colours

@@ -1,4 +1,4 @@
-"""A specimen's absorptance in the ultraviolet, from the light model, once for each specimen."""
+"""A specimen's absorptance in the ultraviolet, computed once by the light model and kept."""
 
 from functools import lru_cache
 

@@ -1,4 +1,4 @@
-"""Directions of light in plane layers, by what refraction keeps: q = refractive index times sine.
+"""Directions of light in plane layers, by q = refractive index times sine, which refraction keeps.
 
 The squares of q are cut into segments at the refractive indices of the stack, where reflection
 becomes total. Just below such a q cosines are square roots, and light that grazes may be absorbed

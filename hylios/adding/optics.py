@@ -1,7 +1,8 @@
-"""What of a stack does not depend on how much its layers absorb and scatter, worked out once.
+"""The parts of a stack's optics that stay the same however much its layers absorb and scatter.
 
-Directions, the rough surface and the densities of scattering take several times as long as
-adding the layers up. They are kept, so that stacks which differ in their pigments only share them.
+These are directions, the rough surface and the densities of scattering. They take several times
+as long as adding the layers up, so they are kept: stacks that differ only in their pigments share
+them.
 """
 
 from dataclasses import dataclass

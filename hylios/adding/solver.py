@@ -1,7 +1,7 @@
 """Adding the layers of a stack, from its floor up to the surface.
 
-For each depth, `Below` says what becomes of light that goes down there. Each layer or face lets
-some of it through, and reflects some of what comes back.
+`Below` says what becomes of light that goes down at a depth. Every layer or face above lets some
+of it through, and reflects some of what comes back.
 """
 
 from collections.abc import Sequence

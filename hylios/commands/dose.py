@@ -1,4 +1,4 @@
-"""`hylios dose`: what exposures amount to for a skin, as CSV."""
+"""`hylios dose`: the doses that a skin gets from exposures, as CSV."""
 
 import argparse
 

@@ -1,4 +1,4 @@
-"""Standard streams as commands need them, whatever a shell has done to them."""
+"""Standard streams as commands need them, even where a shell has closed or changed them."""
 
 import os
 import sys

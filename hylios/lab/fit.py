@@ -1,14 +1,14 @@
 """A specimen that reflects like measured skin: bounded least squares over some of its parameters.
 
-What is free are groups of parameters that go up and down together, `GROUPS`, or single parameters
-by name. Each has one unknown, the logarithm of the factor by which it differs from the specimen
-that the fit starts from, bounded by the physiological ranges. Light comes from `hylios.adding`,
+What may change are single parameters, or groups of parameters that go up and down together
+(`GROUPS`). A group has one unknown: the logarithm of the factor by which it differs from the
+specimen where the fit starts. The physiological ranges bound it. Light comes from `hylios.adding`,
 which has no noise and so has slopes.
 
-Skin's reflectance does not determine everything about it: melanin and the thickness of the layer
-that holds it, for one, act nearly as their product. So each unknown is also drawn weakly to its
-start (Tikhonov's regularisation: as if `EXPECTED_SPREAD` of its range were its standard deviation
-among people), and the result says how much of that spread the data leave.
+Reflectance does not determine everything about skin: melanin and the thickness of the layer that
+holds it, for one, act nearly as their product. So every unknown is also drawn weakly to its start
+(Tikhonov's regularisation: as if `EXPECTED_SPREAD` of its range were its standard deviation among
+people), and the result says how much of that spread the data leave.
 """
 
 from collections.abc import Callable, Iterable, Sequence

@@ -1,6 +1,6 @@
 """Fits the untanned specimens of the six skin types to people and writes `fitted.toml` anew.
 
-python -m hylios.lab.phototype_fits
+Run it as `python -m hylios.lab.phototype_fits`.
 """
 
 import sys

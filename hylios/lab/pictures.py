@@ -1,4 +1,4 @@
-"""Pictures of spectra and colours with matplotlib; without a display and without its pyplot."""
+"""Pictures of spectra and colours, drawn by matplotlib without a display and without pyplot."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Wavelengths and weights that give the right colours of given spectra: how they are chosen."""
+"""How to choose the wavelengths and weights that give the right colours of given spectra."""
 
 from dataclasses import dataclass
 

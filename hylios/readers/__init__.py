@@ -10,6 +10,5 @@ where it can mean two: no reader guesses. Weighed in place of this: `csv.Sniffer
 choose the likeliest layout, so they read what should be refused (clevercsv is compiled besides);
 pandas reads a row that is too short, takes a column twice under another name, and is no
 dependency for a wheel that Blender carries; colour-science's readers of CxF-like and CSV files
-need colour-science and take separators as told. What is left to the standard library's `csv` is
-quoting.
+need colour-science and must be told the separator. The standard library's `csv` does the quoting.
 """

@@ -1,6 +1,6 @@
 """Files of instruments whose layout says what they hold: SVC, ASD, CGATS.
 
-Written after what readers of such files in use take for granted, and tried on samples of our own.
+Written after what other programs expect of such files, and tried on samples that we made.
 """
 
 import re

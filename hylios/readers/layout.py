@@ -1,4 +1,4 @@
-"""How a text is laid out: what parts its cells, where its header is, which rows are data."""
+"""How a text is laid out: what separates its cells, where its header is, which rows are data."""
 
 import csv
 import re

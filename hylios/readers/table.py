@@ -1,4 +1,4 @@
-"""Columns of numbers from a text table in whatever layout, or a sentence why not."""
+"""Columns of numbers from a text table in any layout, or a sentence that says what is wrong."""
 
 import re
 from collections.abc import Sequence

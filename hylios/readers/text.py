@@ -1,4 +1,4 @@
-"""Files of text as people have them: opened with care, decoded by what they are."""
+"""Text files as people have them: how they are opened and decoded."""
 
 import codecs
 import re

@@ -1,8 +1,8 @@
-"""What values a parameter of skin takes in living people, and where that is known from.
+"""Ranges of the parameters of skin in living people, and their sources.
 
 The ranges hold for thin skin (all but palms and soles) of people who are well or have a condition
 that shows in the skin: no melanin at all (vitiligo) is within them, and so are smokers' blood and
-jaundice of the newborn. A number without a measurement behind it is marked ESTIMATE. "Thesis" is
+jaundice of the newborn. A number that no measurement supports is marked ESTIMATE. "Thesis" is
 T. F. Chen's; its numbers in brackets are those of its bibliography. The numbers and their sources
 stand in `physiology.toml`.
 """

@@ -1,4 +1,4 @@
-"""Doses of ultraviolet in the units people have: spectra, sun, UV index, under sunscreen or cloth.
+"""Doses of ultraviolet from what people know: spectra, the sun, a UV index, sunscreen, cloth.
 
-numpy only. What skin absorbs of it the light model tells (`hylios.adding.absorptance`).
+numpy only. How much of it skin absorbs, the light model says (`hylios.adding.absorptance`).
 """

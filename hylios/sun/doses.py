@@ -1,7 +1,7 @@
 """Exposures of the tanning model from what people know: SED, UV index, a lamp's spectrum, the sun.
 
-Each function gives one dose for every hour of the model that it touches, on level skin or skin that
-faces the lamp; what part of it reaches a place of a body is a mask's to say.
+A function here gives one dose for every hour of the model that an exposure touches, on level skin
+or on skin that faces the lamp. A mask says what share of it reaches a place on a body.
 """
 
 from collections.abc import Sequence

@@ -3,9 +3,10 @@
 R. Bird and C. Riordan, Simple solar spectral model for direct and diffuse irradiance on horizontal
 and tilted planes at the earth's surface for cloudless atmospheres, SERI/TR-215-2436 (1984) and J.
 Climate Appl. Meteorol. 25, 87 (1986): every absorber and scatterer dims the direct light by
-Beer-Lambert, and shares of what was scattered arrive as diffuse light. Theirs begins at 300 nm with
-five numbers for ozone; here measured cross sections (`sky.csv`) take it to 280 nm. Water vapour and
-mixed gases do not absorb in the ultraviolet; nitrogen dioxide and sulphur dioxide are left out.
+Beer-Lambert, and shares of what was scattered arrive as diffuse light. Their model begins at 300
+nm with five numbers for ozone; here measured cross sections (`sky.csv`) take it to 280 nm. Water
+vapour and mixed gases do not absorb in the ultraviolet; nitrogen dioxide and sulphur dioxide are
+left out.
 
 Nothing was fitted, and `tests/hylios/sun/test_sun.py` holds the errors. Against ASTM G173's tilted
 surface, 300 to 400 nm: 5.0 % rms, median +2.7 %, erythemal irradiance +7.3 %; against its direct
@@ -78,7 +79,7 @@ class Sunlight:
 
 
 @cache
-def _figures() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _columns() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Wavelengths in nm, extraterrestrial irradiance, ozone's cross section in cm^2."""
     text = files("hylios.sun").joinpath("sky.csv").read_text(encoding="utf-8")
     rows = csv.reader(line for line in text.splitlines() if not line.startswith("#"))
@@ -99,7 +100,7 @@ def sunlight(zenith: ArrayLike, sky: ClearSky, distance: ArrayLike = 1.0) -> Sun
     """
     zenith = np.asarray(zenith, dtype=float)[..., None]
     cosine = np.maximum(np.cos(np.radians(zenith)), 0.0)
-    wavelengths, irradiance, _ = _figures()
+    wavelengths, irradiance, _ = _columns()
     above = np.where(zenith < 90.0, irradiance / np.asarray(distance, float)[..., None] ** 2, 0.0)
     # Kasten and Young 1989; beyond 90 degrees nothing is left to attenuate.
     mass = 1.0 / (cosine + 0.50572 * np.maximum(96.07995 - zenith, 1.0) ** -1.6364)
@@ -123,7 +124,7 @@ def sunlight(zenith: ArrayLike, sky: ClearSky, distance: ArrayLike = 1.0) -> Sun
 
 def _optical_depths(sky: ClearSky) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Vertical optical depths (W,): molecules, ozone, aerosol, and what of it scatters."""
-    nanometres, _, section = _figures()
+    nanometres, _, section = _columns()
     micrometres = nanometres / 1000.0
     pressure = np.exp(-sky.altitude / 8434.0)  # of that at the sea; scale height of 288 K
     molecules = pressure / (micrometres**4 * (115.6406 - 1.335 / micrometres**2))

@@ -1,7 +1,7 @@
 """Reading of OpenEXR files in plain Python: single part, scan lines, none or ZIP compression.
 
 After the file layout in OpenEXR's own documentation. Nothing in a file is believed before it is
-checked: what it says of its size is held against its length before any memory is taken.
+checked: the size that it states is compared with its length before any memory is taken.
 """
 
 import struct

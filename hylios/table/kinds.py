@@ -1,8 +1,8 @@
 """What a value of a table's header may be: numbers in a range, texts, lists and objects of them.
 
-A kind is a function that is told the value's name in the header and the value. It raises InputError
-with one sentence where the value does not fit, and shows nothing of a file raw: a text may hold
-what steers a terminal.
+A kind is a function of the value's name in the header and the value. It raises InputError with one
+sentence where the value does not fit. The sentence shows no text of a file raw, for that may hold
+codes that a terminal obeys.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""What a table's provenance says of its skin, as the objects that computations need.
+"""The skin that a table's provenance describes, as the objects that computations need.
 
 The one reader of a provenance, for the builder and the add-on.
 """

@@ -1,8 +1,8 @@
-"""What decays and is added to over time: x(t) = decay(t) x(t - 1) + added(t), without a long loop.
+"""Recurrences x(t) = decay(t) x(t - 1) + added(t) over many steps, without a long loop.
 
 Time is laid out in blocks: step t of T lies in row t % BLOCK and column t // BLOCK of an array
-(BLOCK, blocks, histories). Rows follow each other, for all blocks at once; then what each block
-hands on to the next is a recurrence of the same kind with fewer steps.
+(BLOCK, blocks, histories). Rows are computed one after the other, for all blocks at once. What a
+block hands on to the next is then a recurrence of the same kind with fewer steps.
 
 All arithmetic is element by element and in the same order however many histories there are and
 however many steps follow: so a history in a batch equals the same history alone, and a longer one

@@ -1,7 +1,7 @@
 """Melanin and thickness over time after doses: equations 5.4 to 5.14 and 5.20 to 5.29.
 
-Everything is computed as a departure from the state without sun, which is exactly none until a
-dose acts. Arrays inside are (BLOCK, blocks, histories), as `recurrence` lays time out.
+Everything is computed as a departure from the state without sun, which is exactly 0 until a dose
+acts. Arrays inside are (BLOCK, blocks, histories), as `recurrence` lays time out.
 """
 
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What a simulation of the tanning skin gives: its state over time."""
+"""The state of a tanning skin over time, as a simulation gives it."""
 
 from dataclasses import dataclass
 

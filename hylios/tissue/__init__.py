@@ -1,7 +1,7 @@
 """Optical layers of a skin at a wavelength.
 
-`model` says what is taken for granted, `absorbers` what absorbs where, `melanosomes` what they do
-in a layer, `layers` puts them together as a `Stack`.
+`model` holds the spectra and readings that light is computed with. `absorbers` and `melanosomes`
+say what absorbs in a layer, and `layers` puts all of it together as a `Stack`.
 """
 
 from hylios.tissue.absorbers import ABSORBERS, PARTS, SPECTRA, absorbers

@@ -19,11 +19,11 @@ their size alone:
 The last two shorten the layer. All are of first order in size. In slabs like the layers of S1 to S4
 the walk's extinction is within .5 % of this, where a melanosome absorbs no more than a fifth.
 
-What is left: light that grazes a layer is thrown back by 1 % (complexes, 80 degrees in type III's)
-or 2 % (single melanosomes, 83 degrees in S4's) of itself too often; presumably light on its way out
-is met more often near the face, where what would cross it is drawn again, than light on its way in.
-So a factor near 1 on the coefficient (`LEFT_OUT`) is fitted to the walk, for complexes and for
-single melanosomes, where they turn light.
+What is left: light that grazes a layer is thrown back too often, by 1 % of itself (complexes, 80
+degrees in type III's) or 2 % (single melanosomes, 83 degrees in S4's). The reason is presumably
+that light on its way out is met more often near the face, where what would cross it is drawn again,
+than light on its way in. So a factor near 1 on the coefficient (`LEFT_OUT`) is fitted to the walk,
+for complexes and for single melanosomes, where they turn light.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What the light model is told besides the specimen: spectra of what absorbs, and readings."""
+"""What the light model needs besides the specimen: spectra of absorbers, and readings."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

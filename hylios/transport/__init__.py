@@ -1,8 +1,8 @@
 """Random walk of light through plane layers, compiled with numba.
 
 Importing a module of this package imports numba, and so does the earlier model
-`hylios.lab.predecessors.biospec`; nothing else in `hylios` does before light is walked. The modules
-build on each other in this order:
+`hylios.lab.predecessors.biospec`. Nothing else in `hylios` imports it before rays are walked. The
+modules build on each other in this order:
 
 - `generator`, `vectors`, `sampling`, `interfaces`, `melanosome`: what is drawn, and what happens at
   a face or in a melanosome; `compiling` and `kernel_cache` compile it.

@@ -1,8 +1,8 @@
 """Compilation of the kernels, kept between processes (`hylios.transport.kernel_cache`).
 
 numba's cache notices a change in the file of a compiled function, not in the functions that it
-calls from other files. But it keeps apart closures over different values: each kernel is one over
-a digest of all sources in this folder and in the kernel's own.
+calls from other files. But it keeps closures over different values apart. So a kernel is a closure
+over a digest of all sources in this folder and in the kernel's own.
 
 Arrays are not counted by reference here (numba's `_nrt`): no kernel makes or keeps one, and
 counting, by locked instructions wherever one is passed on, took a third of the time. Nor are

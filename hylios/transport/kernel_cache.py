@@ -1,8 +1,8 @@
-"""numba's folder of compiled kernels as what it is: a convenience, without which all works.
+"""numba's folder of compiled kernels, treated as a convenience: everything works without it.
 
 An empty or damaged file there stops numba (its issue 10434), and so does a disk that is full.
-Here what can't be read is compiled anew and written anew, and what can't be written is left. A
-checksum ends every file of code, so that damaged code is never run.
+Here a file that can't be read is compiled and written anew, and one that can't be written is left
+out. A checksum ends every file of code, so that damaged code is never run.
 """
 
 import hashlib

@@ -5,9 +5,10 @@ orientation and the point hit are drawn anew. So the probability of leaving unab
 number for a size, a shape, an absorption coefficient and a ratio of refractive indices. It is the
 mean of exp(-mu L) over the lengths L of paths through a melanosome that absorbs nothing.
 
-How nearly: the orientations and points hit are spread evenly over a lattice, what happens inside
-is drawn. Over eight streams of random numbers the chance of absorption has a standard error of
-3e-4 of itself or less, at any coefficient; interpolation between ratios moves it by at most 4e-4.
+How exact it is: the orientations and points hit are spread evenly over a lattice, and what happens
+inside is drawn. Over eight streams of random numbers the chance of absorption has a standard error
+of 3e-4 of itself or less, at any coefficient; interpolation between ratios moves it by at most
+4e-4.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Rays walked with a record of what the probability of their ways is made of.
+"""Rays walked with a record of the sums that make up the probability of their ways.
 
 A ray's way through a stack is drawn from a density whose logarithm is linear in a few sums over
 the way: lengths, and how often what was met. With these kept (`hylios.transport.equivalent.SUMS`),

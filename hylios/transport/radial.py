@@ -1,4 +1,4 @@
-"""How far from where a pencil beam comes in light leaves: the radial exitance R(r)."""
+"""The radial exitance R(r): how far from a pencil beam light leaves the skin."""
 
 from dataclasses import dataclass
 

@@ -3,7 +3,7 @@
 Paths are pooled (`hylios.transport.path_mixture`), so neighbours help each other. How many rays are
 spent in which state (`hylios.transport.ray_allocation`) is the fewest in all with which every state
 has the effective sample size that it needs (`needed_samples`); where sharing does not pay, this
-comes down to simulating each state for itself. What falls short of its limit all the same is
+comes down to simulating every state by itself. A state that still falls short of its limit is
 simulated anew.
 """
 

@@ -1,4 +1,4 @@
-"""Makes the table of survival in a melanosome that `hylios.tissue` reads: no walk there.
+"""Makes the table of survival in a melanosome, which `hylios.tissue` reads instead of walking.
 
 `python -m hylios.transport.survival_table` writes it anew, in about 5 minutes on one core.
 """

@@ -1,4 +1,4 @@
-"""A bar on standard error for work whose length is known about."""
+"""A bar on standard error for work whose length can be estimated."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

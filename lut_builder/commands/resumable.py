@@ -1,4 +1,4 @@
-"""Work that the shell can interrupt and go on with: what the options for it are called."""
+"""Work that can be interrupted and resumed from the shell, by --resume and --force."""
 
 import argparse
 from collections.abc import Iterator

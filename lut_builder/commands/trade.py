@@ -1,4 +1,4 @@
-"""`lut-builder trade`: time against error of tables, measured or as it was measured before."""
+"""`lut-builder trade`: time against error of tables, measured now or before."""
 
 import argparse
 from collections.abc import Callable, Sequence

@@ -1,7 +1,7 @@
 """Holding back Ctrl-C for a moment.
 
-Neither `concurrent.futures` nor joblib starts processes that a terminal's Ctrl-C passes by: while
-they still import, they say so with a traceback each. So here a few lines of our own stay.
+Neither `concurrent.futures` nor joblib can start processes that ignore a terminal's Ctrl-C: all
+that are still importing print a traceback. So a few lines of our own stay here.
 """
 
 import signal

@@ -1,4 +1,4 @@
-"""A unit of work: what it is known by, and its results as bytes.
+"""A unit of work: its digest, and its results as bytes.
 
 A unit is a function, its arguments and a name; its results depend on nothing else, so a table made
 of them is the same bytes whoever did the units, in whatever order, and however often the work was

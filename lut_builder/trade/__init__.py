@@ -1,1 +1,1 @@
-"""Speed for accuracy: measured, drawn, and chosen from."""
+"""Time against error of tables: measured, drawn, and used to choose settings."""

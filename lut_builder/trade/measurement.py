@@ -4,10 +4,13 @@ Colour and profile are separate work with separate errors, so each is measured b
 settings that matter to it, and a table's point is put together from the two. Errors are against a
 fine solution at reachable states that are no knots.
 
-What is not measured for each combination: another number of the solver's directions moves a
-reflectance by what hardly depends on the state, so that shift is measured at the states looked up
-and added there (on the coarsest tables that misses the largest error by 2 %); a profile that would
-take too long follows from the same table's less accurate ones (`table_errors.completed`).
+Two things are not measured for every combination:
+
+- Another number of the solver's directions shifts a reflectance by an amount that hardly depends on
+  the state. So the shift is measured at the states looked up and added there; on the coarsest
+  tables that misses the largest error by 2 %.
+- A profile that would take too long follows from the same table's less accurate ones
+  (`table_errors.completed`).
 """
 
 import platform

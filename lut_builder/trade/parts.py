@@ -1,4 +1,4 @@
-"""What each thing that can be traded does by itself, as rows of a table."""
+"""Time and error of one setting changed by itself, as rows of a table."""
 
 from itertools import product
 from typing import Any

@@ -1,4 +1,4 @@
-"""Points of time against error: what a table costs and is worth, in files and in words."""
+"""Points of time against error of tables, in files and in words."""
 
 import csv
 import os

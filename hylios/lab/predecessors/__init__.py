@@ -1,4 +1,4 @@
-"""Skin models that the thesis compares itself with (figures 6.2 to 6.4), apart from its own.
+"""Earlier skin models, with which the thesis compares its own (figures 6.2 to 6.4).
 
 Importing `biospec` imports numba, importing `donner_jensen` imports scipy.
 """

@@ -10,8 +10,8 @@ program (A. Krishnaswamy's renderer RISE, files BioSpecSkin*, as first published
 slip which its later versions mend, it is mended here too: the papillary dermis's thickness used
 for the corneum's, the blood of the two dermal layers exchanged, a wavelength in cm ten times too
 long. Light that the corneum turns straight back meets the surface like any other (the program lets
-it out, which matters at grazing incidence only). Two more readings are said at `Parameters` and
-`_turn_in_dermis`. Not established: whether the paper counts, as later versions of the program do,
+it out, which matters at grazing incidence only). `Parameters` and `_turn_in_dermis` describe
+two more readings. Not established: whether the paper counts, as later versions of the program do,
 a baseline absorption of all tissue.
 """
 

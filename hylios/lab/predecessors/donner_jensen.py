@@ -8,7 +8,7 @@ The papers themselves were not at hand. The absorption of both melanins and of b
 that on which independent programs written after the paper agree; the scattering, the thickness,
 the refractive index of 1.4 in both layers and the oxygenation are those of one of them,
 pbrt-skin-bssrdf, and the multipole's equations those of two (the other is RISE). Lengths are in mm
-and coefficients in 1/mm, as in the papers, but for `stack`, which is in cm like the project.
+and coefficients in 1/mm, as in the papers; only `stack` is in cm, like the project.
 """
 
 from collections.abc import Callable, Iterable

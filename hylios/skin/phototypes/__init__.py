@@ -1,6 +1,6 @@
 """Fitzpatrick's skin types I to VI: untanned specimens fitted to people, and how they tan.
 
-`types.toml` says what was decided and what of it is a guess, `inner_arm.csv` is what people's skin
+`types.toml` says what was decided and which of it is a guess, `inner_arm.csv` is what people's skin
 reflects, and `fitted.toml` is what `hylios.lab.phototype_fits` made of both. numpy only.
 """
 

@@ -47,10 +47,10 @@ def test_a_parameter_and_a_reading_change_the_spectrum(capsys):
 
 def test_tan_takes_a_med_and_steps(capsys):
     """Thickness alone follows the MED; lines come by the step, halves of an hour between."""
-    asked = "tan --dose 0:10 --mmd 5 --hours 24 "
+    command = "tan --dose 0:10 --mmd 5 --hours 24 "
     outputs = []
     for more in ("--med 3", "--med 50", "--med 3 --step 1/2", "--med 3 --step 12"):
-        assert main((asked + more).split()) == 0
+        assert main((command + more).split()) == 0
         outputs.append(rows(capsys.readouterr().out))
     usual, hardy, halves, longer = outputs
     assert [row["total"] for row in usual] == [row["total"] for row in hardy]

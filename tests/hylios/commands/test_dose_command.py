@@ -60,8 +60,8 @@ def test_doses_in_sed_say_nothing_of_estimates(capsys):
 def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
     """Given erythema's, melanin counts as the thickness does, and nothing is provisional."""
     own = tmp_path / "own.csv"
-    figure = published_spectra()[ERYTHEMA]
-    rows = zip(figure.wavelengths, figure.values, strict=True)
+    spectrum = published_spectra()[ERYTHEMA]
+    rows = zip(spectrum.wavelengths, spectrum.values, strict=True)
     own.write_text("".join(f"{nanometres},{value}\n" for nanometres, value in rows))
     command = "dose --sun 2025-06-21:12-13 --latitude 40 --own-spectrum melanogenesis_action="
     (row,), notes = run(command + str(own), capsys)

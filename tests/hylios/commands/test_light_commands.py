@@ -21,8 +21,8 @@ def table(text):
 
 
 def test_brdf_is_csv_that_sums_to_the_reflectance(capsys):
-    asked = "brdf --specimen S3 --wavelength 550 --angle 30 --polar-bins 6 --azimuth-bins 4"
-    assert main([*asked.split(), "--rays", "4000", "--seed", "3"]) == 0
+    command = "brdf --specimen S3 --wavelength 550 --angle 30 --polar-bins 6 --azimuth-bins 4"
+    assert main([*command.split(), "--rays", "4000", "--seed", "3"]) == 0
     printed = capsys.readouterr()
     header = (
         "polar_degrees,azimuth_degrees,projected_solid_angle_sr,"
@@ -43,8 +43,8 @@ def test_brdf_is_csv_that_sums_to_the_reflectance(capsys):
 
 
 def test_profile_is_csv_that_sums_to_the_subsurface_reflectance(capsys):
-    asked = "profile --specimen S3 --wavelength 633 --rays 4000 --seed 3 --rings 30 --largest 20"
-    assert main(asked.split()) == 0
+    command = "profile --specimen S3 --wavelength 633 --rays 4000 --seed 3 --rings 30 --largest 20"
+    assert main(command.split()) == 0
     printed = capsys.readouterr()
     header = "inner_mm,outer_mm,exitance_per_mm2,standard_error,burley_per_mm2"
     assert printed.out.splitlines()[0] == header

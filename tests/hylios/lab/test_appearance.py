@@ -28,8 +28,8 @@ def test_measured_skin_has_its_measured_colour():
         "0.4823,0.4872,0.4916,0.4959,0.4999,0.5034,0.5052"
     )
     reflectance = np.array(percent.split(","), dtype=float)
-    found = colour.lab(colour.linear_rec709(np.arange(400.0, 701.0, 10.0), reflectance))
-    assert found == pytest.approx([65.86, 5.81, 15.01], abs=0.3)
+    lab = colour.lab(colour.linear_rec709(np.arange(400.0, 701.0, 10.0), reflectance))
+    assert lab == pytest.approx([65.86, 5.81, 15.01], abs=0.3)
 
 
 def test_srgb_of_half_grey():

@@ -23,18 +23,21 @@ VISIBLE = np.arange(400.0, 701.0, 20.0)
 
 
 def light(specimen, wavelengths=VISIBLE):
-    return solve([with_survival(Stack.of(specimen, each)) for each in wavelengths]).total
+    return solve(
+        [with_survival(Stack.of(specimen, wavelength)) for wavelength in wavelengths]
+    ).total
 
 
 def test_what_made_a_spectrum_is_found_again():
     names, factors = ("melanin", "blood", "oxygenation", "hypodermis"), (1.6, 2.0, 0.8, 0.9)
-    found = fit_spectrum(S3, VISIBLE, light(scaled(S3, names, np.array(factors))), free=names)
-    assert found.rmse < 1e-3  # not 0: each unknown is drawn a little to its start
-    assert [each.name for each in found.free if each.determined][::2] == ["melanin", "hypodermis"]
-    for each, made in zip(found.free, factors, strict=True):
-        assert abs(np.log(each.factor / made)) < min(each.spread, 0.1), each.name
-    oxygenation = found.free[2].factor
-    assert found.specimen.oxygenated_blood == pytest.approx(oxygenation * S3.oxygenated_blood)
+    fit = fit_spectrum(S3, VISIBLE, light(scaled(S3, names, np.array(factors))), free=names)
+    assert fit.rmse < 1e-3  # not 0: each unknown is drawn a little to its start
+    determined = [group.name for group in fit.free if group.determined]
+    assert determined[::2] == ["melanin", "hypodermis"]
+    for group, factor in zip(fit.free, factors, strict=True):
+        assert abs(np.log(group.factor / factor)) < min(group.spread, 0.1), group.name
+    oxygenation = fit.free[2].factor
+    assert fit.specimen.oxygenated_blood == pytest.approx(oxygenation * S3.oxygenated_blood)
 
 
 def test_noise_moves_an_unknown_by_its_stated_spread():
@@ -50,8 +53,8 @@ def test_noise_moves_an_unknown_by_its_stated_spread():
     off = []
     for _ in range(10):
         noisy = clean + random.normal(0.0, 0.01, clean.size)
-        found = fit_spectrum(start, VISIBLE, noisy, free=names)
-        off.append([np.log(each.factor) / each.spread for each in found.free])
+        fit = fit_spectrum(start, VISIBLE, noisy, free=names)
+        off.append([np.log(group.factor) / group.spread for group in fit.free])
     near = np.mean(np.abs(off) < 1.0, axis=0)
     assert np.all(near >= 0.3)
     assert np.all(np.abs(off) < 4.5)
@@ -60,28 +63,28 @@ def test_noise_moves_an_unknown_by_its_stated_spread():
 def test_a_colour_is_met_and_leaves_the_rest_open():
     aim = scaled(S3, ("melanin", "blood"), np.array([2.0, 1.5]))
     wanted = srgb(linear_rec709(VISIBLE, light(aim)))
-    found = fit_colour(S3, wanted)
-    assert np.linalg.norm(found.residual) < 1.0
-    left = {each.name: each for each in found.free}
-    assert left["water"].left > 0.9 and not left["water"].determined
-    assert left["melanin"].left < 0.5
-    assert any("water is not determined" in line for line in found.remarks())
-    assert found.specimen.reticular_water == pytest.approx(S3.reticular_water, rel=0.05)
+    fit = fit_colour(S3, wanted)
+    assert np.linalg.norm(fit.residual) < 1.0
+    groups = {group.name: group for group in fit.free}
+    assert groups["water"].left > 0.9 and not groups["water"].determined
+    assert groups["melanin"].left < 0.5
+    assert any("water is not determined" in line for line in fit.remarks())
+    assert fit.specimen.reticular_water == pytest.approx(S3.reticular_water, rel=0.05)
 
 
 def test_every_group_stays_within_physiology():
-    found = fit_spectrum(S3, VISIBLE[::2], np.full(8, 0.95))
-    for each in parameters():
-        low, high = PHYSIOLOGY[each.name].low, PHYSIOLOGY[each.name].high
-        value = getattr(found.specimen, each.name)
-        assert min(low, getattr(S3, each.name)) * 0.999 <= value <= high * 1.001, each.name
-    assert any("end of its physiological range" in line for line in found.remarks())
+    fit = fit_spectrum(S3, VISIBLE[::2], np.full(8, 0.95))
+    for name in (parameter.name for parameter in parameters()):
+        low, high = PHYSIOLOGY[name].low, PHYSIOLOGY[name].high
+        value = getattr(fit.specimen, name)
+        assert min(low, getattr(S3, name)) * 0.999 <= value <= high * 1.001, name
+    assert any("end of its physiological range" in line for line in fit.remarks())
 
 
 def test_melanin_and_the_layer_that_holds_it_are_told_apart_badly():
-    found = fit_spectrum(S3, VISIBLE, light(S3), free=("melanin", "epidermis", "blood"))
-    assert ("epidermis", "melanin") in [pair[:2] for pair in found.confounded]
-    assert any("told apart badly" in line for line in found.remarks())
+    fit = fit_spectrum(S3, VISIBLE, light(S3), free=("melanin", "epidermis", "blood"))
+    assert ("epidermis", "melanin") in [pair[:2] for pair in fit.confounded]
+    assert any("told apart badly" in line for line in fit.remarks())
 
 
 @pytest.mark.parametrize(
@@ -105,8 +108,8 @@ def test_nothing_cannot_be_scaled():
 
 
 def test_groups_name_parameters():
-    known = {each.name for each in parameters()}
-    assert all(set(fields) <= known for fields in GROUPS.values())
+    names = {parameter.name for parameter in parameters()}
+    assert all(set(fields) <= names for fields in GROUPS.values())
     assert set(USUAL) <= set(GROUPS)
 
 

@@ -22,7 +22,7 @@ HEADER = "wavelength_nm,total,surface,subsurface,absorptance,standard_error"
 def grey(tmp_path):
     """A reflectance of .25 everywhere, as `hylios reflectance` would print it."""
     path = tmp_path / "grey.csv"
-    rows = [f"{each},0.25,0.05,0.2,0.75,0.01" for each in range(250, 2501, 50)]
+    rows = [f"{nanometres},0.25,0.05,0.2,0.75,0.01" for nanometres in range(250, 2501, 50)]
     path.write_text("\n".join([HEADER, *rows]) + "\n")
     return path
 
@@ -31,12 +31,12 @@ def test_a_printed_spectrum_is_read_back(tmp_path, capsys):
     main("reflectance --wavelengths 500,600,700 --rays 100".split())
     path = tmp_path / "S3.csv"
     path.write_text(capsys.readouterr().out)
-    found = read_spectrum(path)
-    assert found.name == "S3"
-    assert found.wavelengths.tolist() == [500.0, 600.0, 700.0]
-    assert np.all((found.reflectance > 0.0) & (found.reflectance < 1.0))
-    assert found.standard_error is not None
-    assert np.all(found.standard_error > 0.0)
+    spectrum = read_spectrum(path)
+    assert spectrum.name == "S3"
+    assert spectrum.wavelengths.tolist() == [500.0, 600.0, 700.0]
+    assert np.all((spectrum.reflectance > 0.0) & (spectrum.reflectance < 1.0))
+    assert spectrum.standard_error is not None
+    assert np.all(spectrum.standard_error > 0.0)
 
 
 def test_the_mean_over_a_band_is_that_of_the_line_between_the_points():
@@ -50,8 +50,8 @@ def test_swatches_of_a_grey_are_grey_or_tinted():
     wavelengths, reflectance = np.array([250.0, 2500.0]), np.array([0.25, 0.25])
     assert colour.swatch(wavelengths, reflectance, "visible") == pytest.approx([0.25] * 3)
     for band, tint in colour.TINTS.items():
-        found = colour.swatch(wavelengths, reflectance, band)
-        assert found == pytest.approx(0.25 * np.array(tint))
+        swatch = colour.swatch(wavelengths, reflectance, band)
+        assert swatch == pytest.approx(0.25 * np.array(tint))
         assert max(tint) == 1.0
     assert np.argmax(colour.TINTS["uv"]) == 2
     assert np.argmax(colour.TINTS["ir"]) == 0
@@ -87,23 +87,23 @@ def test_the_command_writes_the_swatch_of_a_file(tmp_path, grey, capsys):
 
 def test_the_command_simulates_a_specimen(tmp_path, capsys):
     """Skin is redder than it is green, greener than it is blue, and S4 darker than S3."""
-    found = []
+    colours = []
     for name in ("S3", "S4"):
         target = tmp_path / f"{name}.png"
-        asked = f"swatch --specimen {name} --rays 300 --step 20 --size 1 -o {target}"
-        assert main(asked.split()) == 0
+        command = f"swatch --specimen {name} --rays 300 --step 20 --size 1 -o {target}"
+        assert main(command.split()) == 0
         assert name in capsys.readouterr().out
-        found.append(imread(target)[0, 0, :3])
-    for red, green, blue in found:
+        colours.append(imread(target)[0, 0, :3])
+    for red, green, blue in colours:
         assert red > green > blue
-    assert found[1].max() < found[0].max()
+    assert colours[1].max() < colours[0].max()
 
 
 def test_the_choice_of_bands_is_that_of_the_colours(tmp_path):
     for band in colour.BANDS:
         target = tmp_path / f"{band}.png"
-        asked = f"swatch --band {band} --rays 1 --step 50 --size 1 -o {target}"
-        assert main(asked.split()) == 0
+        command = f"swatch --band {band} --rays 1 --step 50 --size 1 -o {target}"
+        assert main(command.split()) == 0
 
 
 SPECTRA = [
@@ -158,7 +158,7 @@ def test_an_existing_file_is_replaced_only_when_asked_to(tmp_path, grey, capsys)
         assert target.read_text() == "old"
     assert main(["plot", str(grey), "-o", str(target), "--force"]) == 0
     assert target.read_bytes().startswith(b"\x89PNG")
-    assert sorted(each.name for each in tmp_path.iterdir()) == ["grey.csv", "old.png"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["grey.csv", "old.png"]
 
 
 def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path):

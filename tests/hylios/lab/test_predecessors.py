@@ -1,6 +1,6 @@
 """BioSpec and DJ06 against closed forms, limits and this project's own random walk.
 
-Statistical comparisons allow 4 standard errors (a chance of 6e-5 each) with fixed seeds.
+Statistical comparisons allow 4 standard errors (a chance of 6e-5) with fixed seeds.
 """
 
 import numpy as np
@@ -205,7 +205,7 @@ def test_biospec_without_fibres_is_a_product_of_exponential_integrals():
     dermis gives the direction for the layers above it too.
     """
     depth = np.array([0.05, 0.2, 0.1, 0.3])
-    layers = [(0.01, 1.0, 100.0 * each, 0.0) for each in depth]
+    layers = [(0.01, 1.0, 100.0 * optical_depth, 0.0) for optical_depth in depth]
     crossing = 2.0 * expn(3, [depth[2], depth[3], depth[:3].sum()])
     expected = np.exp(-depth[:2].sum()) * crossing[0] * crossing[1] ** 2 * crossing[2]
     share = biospec_share(layers, 200_000)
@@ -239,8 +239,8 @@ def test_biospec_scattering_angles_keep_the_measured_shares():
         for length in (302.0, 436.0, 546.0):
             angles = biospec.scattering_angles(length)[row]
             share = np.linspace(0.0, 100.0, angles.size)
-            known = np.interp(table["angle_deg"], angles, share)
-            np.testing.assert_allclose(known, table[f"{tissue}_{length:.0f}"], atol=0.1)
+            measured_share = np.interp(table["angle_deg"], angles, share)
+            np.testing.assert_allclose(measured_share, table[f"{tissue}_{length:.0f}"], atol=0.1)
     np.testing.assert_array_equal(
         biospec.scattering_angles(700.0), biospec.scattering_angles(546.0)
     )
@@ -250,11 +250,11 @@ def test_biospec_scattering_angles_keep_the_measured_shares():
 
 def test_biospec_absorption_by_hand():
     """550 nm, from spectra.csv and the program's formulas."""
-    known = {name: spectrum.at(550.0) for name, spectrum in published_spectra().items()}
-    melanin = 0.019 * (80.0 * known["eumelanin"] + 12.0 * known["pheomelanin"])
-    carotene = known["beta_carotene"] / 537.0
-    blood = 0.75 * known["oxyhemoglobin"] + 0.25 * known["deoxyhemoglobin"]
-    blood = blood * 150.0 / 66500.0 + known["bilirubin"] * 0.005 / 585.0
+    at_550 = {name: spectrum.at(550.0) for name, spectrum in published_spectra().items()}
+    melanin = 0.019 * (80.0 * at_550["eumelanin"] + 12.0 * at_550["pheomelanin"])
+    carotene = at_550["beta_carotene"] / 537.0
+    blood = 0.75 * at_550["oxyhemoglobin"] + 0.25 * at_550["deoxyhemoglobin"]
+    blood = blood * 150.0 / 66500.0 + at_550["bilirubin"] * 0.005 / 585.0
     expected = [
         carotene * 2.1e-4,
         melanin + 0.981 * carotene * 2.1e-4,
@@ -269,8 +269,8 @@ def test_biospec_absorption_by_hand():
 def test_biospec_darkens_with_melanosomes():
     rays = 4_000
     spectra = [
-        biospec.reflectance(biospec.Parameters(melanosomes=each), VISIBLE, 45.0, rays)
-        for each in (0.0, 1.9, 5.2, 12.0, 42.0)
+        biospec.reflectance(biospec.Parameters(melanosomes=percent), VISIBLE, 45.0, rays)
+        for percent in (0.0, 1.9, 5.2, 12.0, 42.0)
     ]
     assert np.all(np.diff(spectra, axis=0) < 4.0 * np.sqrt(0.5 / rays))
     assert np.all(np.diff(np.mean(spectra, axis=1)) < 0.0)

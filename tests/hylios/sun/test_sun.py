@@ -1,4 +1,4 @@
-"""The sun and the clear sky against published figures."""
+"""The sun and the clear sky against published values."""
 
 import csv
 from dataclasses import replace

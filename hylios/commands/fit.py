@@ -10,6 +10,7 @@ from hylios.commands.shell import (
     add_skin_arguments,
     chosen_skin,
     note_estimates,
+    note_omissions,
     number,
     wavelength_range,
 )
@@ -36,13 +37,16 @@ def add_to(commands) -> None:
         "--spectrum",
         type=Path,
         metavar="FILE",
-        help="a measured spectrum: CSV of wavelength_nm and reflectance, 0 to 1",
+        help="a measured spectrum: CSV of wavelength_nm and reflectance, 0 to 1, or an "
+        "instrument's file",
     )
     data.add_argument(
         "--srgb", metavar="R,G,B", help="a measured colour under D65: three numbers from 0 to 255"
     )
     parser.add_argument(
-        "--column", default="total", help="column of --spectrum that holds reflectance"
+        "--column",
+        default="total",
+        help="column of --spectrum that holds reflectance, or sample of a CGATS or CxF file",
     )
     parser.add_argument(
         "--wavelengths",
@@ -72,6 +76,7 @@ def run(arguments: argparse.Namespace) -> None:
             error = f"{np.linalg.norm(result.residual):.2f} off in L*a*b* (CIE76)"
         else:
             measured = read_spectrum(arguments.spectrum, arguments.column)
+            note_omissions([measured])
             wavelengths = _wavelengths(arguments.wavelengths, measured.wavelengths)
             reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
             result = fit_spectrum(start, wavelengths, reflectance, **light, advance=advance)

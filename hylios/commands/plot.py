@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from hylios.commands.shell import note_omissions
 from hylios.errors import shown
 from hylios.files import require_target
 from hylios.readers.spectrum import read_spectra
@@ -28,6 +29,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Read, draw and write."""
     require_target(arguments.output, (".png", ".svg"), arguments.force)
     spectra = read_spectra(arguments.files)
+    note_omissions(spectra)
 
     from hylios.lab.pictures import spectra_figure, write_figure  # matplotlib takes a second
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from hylios.commands.streams import discard_output, prepare_streams
 from hylios.errors import InputError, require_whole, shown
+from hylios.readers.spectrum import NamedSpectrum
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.specimen import Specimen, parameters, with_values
@@ -101,6 +102,13 @@ def note_estimates(model: Model, wavelengths: np.ndarray, names: Sequence[str] =
     """Say on standard error which spectra are estimates at some wavelength in nm."""
     for line in estimates_within(model.spectra, names, wavelengths):
         print(f"note: {line}", file=sys.stderr)
+
+
+def note_omissions(spectra: Sequence[NamedSpectrum]) -> None:
+    """Say on standard error what was left out of files of spectra."""
+    for spectrum in spectra:
+        for line in spectrum.notes:
+            print(f"note: {spectrum.name}: {line}", file=sys.stderr)
 
 
 def add_skin_arguments(parser: argparse.ArgumentParser) -> None:

@@ -10,6 +10,7 @@ from hylios.commands.shell import (
     add_work_arguments,
     chosen_skin,
     note_estimates,
+    note_omissions,
     require_work,
 )
 from hylios.errors import InputError, require_range, require_whole, shown
@@ -64,6 +65,7 @@ def run(arguments: argparse.Namespace) -> None:
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
     _require_room(max(len(arguments.files), 1), size)
     spectra = read_spectra(arguments.files) if arguments.files else [_simulated(arguments)]
+    note_omissions(spectra)
 
     from hylios.lab.colour import srgb, swatch
     from hylios.lab.pictures import swatches, write_pixels

@@ -2,8 +2,8 @@
 
 One set of rules for all of them, numpy and the standard library only: `text` opens and decodes,
 `layout` finds separator, header and rows, `quantities` knows columns by their names and units,
-`table` joins them to columns of numbers, `instruments` knows files whose layout is their maker's,
-and `spectrum` is what most callers want.
+`table` joins them to columns of numbers, `instruments` knows tables whose layout is their maker's,
+`cgats` and `cxf` know files of samples, and `spectrum` is what most callers want.
 
 A file is read where its text can mean one thing only, and refused in a sentence with the line
 where it can mean two: no reader guesses. Weighed in place of this: `csv.Sniffer` and clevercsv

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError, shown
-from hylios.readers.layout import NUMBER
+from hylios.errors import InputError
+from hylios.readers.layout import finite_number
 from hylios.readers.quantities import REFLECTANCE, WAVELENGTH
+from hylios.readers.samples import the_sample
 from hylios.readers.table import Table
 
 TOKEN = re.compile(r'"[^"]*"|[^\s"]+')
@@ -22,7 +23,6 @@ FIELD = re.compile(
 )
 SAMPLE_NAMES = ("SAMPLE_NAME", "SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC")
 PAIRED = {"SPECTRAL_PCT": 100.0, "SPECTRAL_DEC": 1.0}
-SAMPLES_SHOWN = 8
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def cgats_table(lines: Sequence[str], name: str, sample: str | None = None) -> T
     """
     try:
         fields = tuple(_words(lines, "BEGIN_DATA_FORMAT", "END_DATA_FORMAT"))
-        row = _chosen(fields, _samples(lines, len(fields)), sample)
+        row = _row(fields, _samples(lines, len(fields)), sample)
         wavelengths, values = _spectrum(fields, row, _norm(lines))
     except InputError as error:
         raise InputError(f"{name} cannot be read: {error}.") from error
@@ -90,25 +90,19 @@ def _samples(lines: Sequence[str], count: int) -> list[Sample]:
     return samples
 
 
-def _chosen(fields: tuple[str, ...], samples: Sequence[Sample], sample: str | None) -> Sample:
+def _row(fields: tuple[str, ...], samples: Sequence[Sample], sample: str | None) -> Sample:
     """The only sample, or the one of a name."""
     places = [place for place, field in enumerate(fields) if field.upper() in SAMPLE_NAMES]
-    fitting = [
-        row for row in samples if sample is None or sample in (row.cells[place] for place in places)
-    ]
-    if len(fitting) == 1:
-        return fitting[0]
-    names = [row.cells[places[-1]] if places else str(row.line) for row in samples]
-    some = ", ".join(shown(name[:40]) for name in names[:SAMPLES_SHOWN])
-    what = "several samples" if sample is None else f"not one sample {shown(sample[:40])!r}"
-    raise InputError(f"it has {what if samples else 'no sample'}; there are {some or 'none'}")
+    names = [[row.cells[place] for place in places] for row in samples]
+    labels = [row.cells[places[-1]] if places else str(row.line) for row in samples]
+    return the_sample(samples, names, labels, sample)
 
 
 def _norm(lines: Sequence[str]) -> float:
     for number, line in enumerate(lines, start=1):
         words = [word.strip('"') for word in TOKEN.findall(line)]
         if words and words[0].upper() == "SPECTRAL_NORM":
-            norm = _number(words[1] if len(words) == 2 else "", number)
+            norm = finite_number(words[1] if len(words) == 2 else "", number)
             if norm not in (1.0, 100.0):
                 raise InputError(
                     f"line {number} has a SPECTRAL_NORM of {norm:g}; allowed is 1 or 100"
@@ -123,14 +117,17 @@ def _spectrum(fields: tuple[str, ...], row: Sample, norm: float) -> tuple[np.nda
     if any(matches):
         wavelengths = [float(match[1]) for match in matches if match]
         values = [
-            _number(cell, row.line) / norm
+            finite_number(cell, row.line) / norm
             for cell, match in zip(row.cells, matches, strict=True)
             if match
         ]
         return np.array(wavelengths), np.array(values)
     upper = [field.upper() for field in fields]
     pairs = [
-        (_number(row.cells[place], row.line), _number(row.cells[place + 1], row.line) / per)
+        (
+            finite_number(row.cells[place], row.line),
+            finite_number(row.cells[place + 1], row.line) / per,
+        )
         for place, field in enumerate(upper[:-1])
         if field == "SPECTRAL_NM" and (per := PAIRED.get(upper[place + 1]))
     ]
@@ -138,9 +135,3 @@ def _spectrum(fields: tuple[str, ...], row: Sample, norm: float) -> tuple[np.nda
         raise InputError("it is a CGATS file without fields of a spectrum, such as SPECTRAL_NM400")
     wavelengths, values = np.array(pairs).T
     return wavelengths, values
-
-
-def _number(cell: str, line: int) -> float:
-    if not NUMBER.fullmatch(cell) or "," in cell or not np.isfinite(float(cell)):
-        raise InputError(f"line {line} has {shown(cell[:60])!r}; expected a number")
-    return float(cell)

@@ -1,6 +1,7 @@
 """How a text is laid out: what separates its cells, where its header is, which rows are data."""
 
 import csv
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ END_MARKS = (">>>>>End", "END_DATA")
 TITLES_SHOWN = 12
 
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*|,\d+)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
+NUMBERS_START = re.compile(r"[<>~±]?\s*[+-]?[.,]?\d")
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 
 
@@ -51,6 +53,13 @@ def is_number(cell: str) -> bool:
     return bool(NUMBER.fullmatch(cell) or NOT_FINITE.fullmatch(cell))
 
 
+def finite_number(cell: str, line: int) -> float:
+    """A number with a decimal point; InputError where a cell is none."""
+    if not NUMBER.fullmatch(cell) or "," in cell or not math.isfinite(float(cell)):
+        raise InputError(f"line {line} has {shown(cell[:60])!r}; expected a number")
+    return float(cell)
+
+
 def laid_out(
     lines: Sequence[str],
     separator: str,
@@ -59,9 +68,10 @@ def laid_out(
 ) -> Layout:
     """Header and rows of some lines with one separator.
 
-    Lines before the header, empty rows and lines that start with # are passed over. The header is
-    the first row with titles for all that is needed; a second row of units below it is added to
-    it. Without such a row, two columns of numbers will do where they can be a pair.
+    Lines before the header, empty rows and lines that start with # are passed over, and so is text
+    below the rows (`_without_text_below`). The header is the first row with titles for all that is
+    needed; a second row of units below it is added to it. Without such a row, two columns of
+    numbers will do where they can be a pair.
 
     Raises
     ------
@@ -70,18 +80,18 @@ def laid_out(
     InputError
         If a row has more or fewer cells than the header, or a quoted cell does not end.
     """
-    rows = [row for row in _rows(lines, separator) if not row.is_empty]
+    rows = list(_rows(lines, separator))
     for number, row in enumerate(rows):
-        if len(row.cells) > 1 and not _missing(row, needed):
+        if not row.is_empty and len(row.cells) > 1 and not _missing(row, needed):
             _require_no_data(rows[:number], len(row.cells))
-            return _with_units(row.cells, rows[number + 1 :])
+            return _with_units(row.cells, _without_text_below(rows[number + 1 :]))
     first = next((number for number, row in enumerate(rows) if _is_data(row)), len(rows))
-    _require_no_header(rows[:first], needed)
+    _require_no_header(_filled(rows[:first]), needed)
     if as_pair is None or first == len(rows) or len(rows[first].cells) != 2:
-        raise NoHeaderError(_without(rows, needed))
+        raise NoHeaderError(_without(_filled(rows), needed))
     _require_no_data(rows[:first], 2)
-    pair = _fitting(tuple(quantity.name for quantity in as_pair), rows[first:])
-    return replace(pair, has_header=False)
+    pair = tuple(quantity.name for quantity in as_pair)
+    return replace(_fitting(pair, _without_text_below(rows[first:])), has_header=False)
 
 
 def _rows(lines: Sequence[str], separator: str) -> Iterator[Row]:
@@ -108,6 +118,27 @@ def _rows(lines: Sequence[str], separator: str) -> Iterator[Row]:
         yield Row(here, tuple(cell.strip() for cell in cells))
 
 
+def _without_text_below(rows: Sequence[Row]) -> list[Row]:
+    """Rows that are not empty, up to where text begins below numbers.
+
+    An empty row parts it from them, and no cell of it starts as a number does: the logs below the
+    spectra of Cary's and other instruments are such. Text with a number in it stays, and so is
+    refused as a row that does not fit.
+    """
+    last = max((at for at, row in enumerate(rows) if _starts_with_number(row)), default=None)
+    if last is not None and last + 1 < len(rows) and rows[last + 1].is_empty:
+        rows = rows[: last + 1]
+    return _filled(rows)
+
+
+def _filled(rows: Sequence[Row]) -> list[Row]:
+    return [row for row in rows if not row.is_empty]
+
+
+def _starts_with_number(row: Row) -> bool:
+    return any(NUMBERS_START.match(cell) or NOT_FINITE.fullmatch(cell) for cell in row.cells)
+
+
 def _missing(row: Row, needed: Sequence[Quantity]) -> list[Quantity]:
     """What is needed and not named in a row; a column that is there twice is there."""
     missing = []
@@ -121,7 +152,7 @@ def _missing(row: Row, needed: Sequence[Quantity]) -> list[Quantity]:
 
 
 def _is_data(row: Row) -> bool:
-    return len(row.cells) > 1 and all(is_number(cell) for cell in row.cells if cell)
+    return not row.is_empty and len(row.cells) > 1 and all(map(is_number, filter(None, row.cells)))
 
 
 def _require_no_data(above: Sequence[Row], count: int) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from hylios.errors import InputError, shown
 from hylios.readers.cgats import cgats_table, is_cgats
+from hylios.readers.cxf import cxf_table, is_cxf
 from hylios.readers.quantities import (
     ABSORBANCE,
     IRRADIANCE,
@@ -27,6 +28,9 @@ SHORTEST_NM, LONGEST_NM = 100.0, 1e5
 LARGEST_ERROR = 0.5
 """Standard deviation that numbers from 0 to 1 can have at most."""
 
+OF_SAMPLES = ((is_cgats, cgats_table), (is_cxf, cxf_table))
+"""Files of several samples: whether lines are such a file, and how its table is read."""
+
 OTHER_UNITS = "; other units are read where the column is called wavelength (um) or (angstrom)"
 PERCENT = ", or percent where the column is called as {column} (%)"
 
@@ -42,12 +46,15 @@ class NamedSpectrum:
     reflectance : (W,) array, 0 to 1
     standard_error : (W,) array or None
         None where it is not known.
+    notes : tuple of str
+        What of its file was left out, a line each.
     """
 
     name: str
     wavelengths: np.ndarray
     reflectance: np.ndarray
     standard_error: np.ndarray | None
+    notes: tuple[str, ...] = ()
 
 
 def read_spectra(paths: Sequence[Path]) -> list[NamedSpectrum]:
@@ -79,7 +86,7 @@ def read_spectrum(path: Path, column: str = REFLECTANCE.name) -> NamedSpectrum:
     Parameters
     ----------
     column : str
-        That holds the reflectance; of a CGATS file the sample.
+        That holds the reflectance; of a CGATS or CxF file the sample.
 
     Raises
     ------
@@ -89,8 +96,9 @@ def read_spectrum(path: Path, column: str = REFLECTANCE.name) -> NamedSpectrum:
     named = column == REFLECTANCE.name
     reflectance = REFLECTANCE if named else Quantity(column, (column.casefold(),), SHARE)
     lines, name = lines_of(path), name_of(path)
-    if is_cgats(lines):
-        table = cgats_table(lines, name, None if named else column)
+    of_samples = next((read for fits, read in OF_SAMPLES if fits(lines)), None)
+    if of_samples is not None:
+        table = of_samples(lines, name, None if named else column)
         reflectance = REFLECTANCE
     else:
         table = table_of(
@@ -103,7 +111,7 @@ def read_spectrum(path: Path, column: str = REFLECTANCE.name) -> NamedSpectrum:
     if STANDARD_ERROR.name in table.numbers:
         error = table.require_range(STANDARD_ERROR.name, 0.0, LARGEST_ERROR)
     stem = name if path == STANDARD_INPUT else shown(path.stem)
-    return NamedSpectrum(stem, table.numbers[WAVELENGTH.name], values, error)
+    return NamedSpectrum(stem, table.numbers[WAVELENGTH.name], values, error, table.notes)
 
 
 def read_irradiance(path: Path) -> tuple[np.ndarray, np.ndarray]:

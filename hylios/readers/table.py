@@ -33,6 +33,8 @@ class Table:
         Where each row stands in the file.
     has_header : bool
         Whether its columns have names in the file.
+    notes : tuple of str
+        What of the file was left out, a line each.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Table:
     texts: dict[str, list[str]]
     lines: np.ndarray
     has_header: bool = True
+    notes: tuple[str, ...] = ()
 
     def require_range(self, column: str, low: float, high: float, hint: str = "") -> np.ndarray:
         """A column whose values all lie in [low, high].
@@ -123,8 +126,8 @@ def table_of(
 ) -> Table:
     """A table from lines of text; the rest as in `read_table`."""
     try:
-        lines = without_instruments_words(lines)
-        return _the_only(*_readings(lines, name, needed, welcome, as_pair))
+        lines, notes = without_instruments_words(lines)
+        return replace(_the_only(*_readings(lines, name, needed, welcome, as_pair)), notes=notes)
     except InputError as error:
         raise InputError(f"{name} cannot be read: {error}.") from error
 

@@ -69,6 +69,22 @@ BEGIN_DATA
 1 "inner arm" {values}
 END_DATA
 """
+CARY = """\
+Sample1,
+Wavelength (nm),%R,
+500.0,50.0,
+400.0,25.0,
+
+Sample1
+Collection Time: 5/3/2021 2:31:44 PM
+Operator Name:   ( Not Entered )
+Parameter List :
+ X Mode                             Nanometers
+ Start (nm)                         500.0
+ Stop (nm)                          400.0
+
+<End of method>
+"""
 OCEAN = """\
 SpectraSuite Data File
 ++++++++++++++++++++++++++++++++++++
@@ -98,6 +114,9 @@ Number of Pixels in Processed Spectrum: 2
         ASD,
         SED,
         OCEAN,
+        CARY,
+        CARY.replace("R,\n", "R\n").replace("0,\n", "0\n"),
+        CARY.replace(",", "\t"),
         CGATS.format(norm="", fields="SPECTRAL_NM400 SPECTRAL_NM500", values="0.25 0.5"),
         CGATS.format(norm='SPECTRAL_NORM "100"', fields="SPEC_400 SPEC_500", values="25 50"),
         CGATS.format(norm="", fields="nm400 nm500", values="0.25 0.5"),

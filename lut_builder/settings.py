@@ -79,7 +79,7 @@ class Settings:
             require_range("band", band, FIRST_NM, LAST_NM, "nm")
         if len({f"{band:g}" for band in self.bands}) < len(self.bands):
             listed = ", ".join(f"{band:g}" for band in self.bands)
-            raise InputError(f"bands are {listed} nm; allowed is each once.")
+            raise InputError(f"bands are {listed} nm; allowed is no band twice.")
         if self.profile_error != 0.0:
             require_range(
                 "error of the profile", self.profile_error, LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR

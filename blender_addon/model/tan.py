@@ -98,8 +98,8 @@ def tan(
     ).image
     if not table.holds(states).all():
         raise InputError(
-            "the table was built for another schedule of sun, which does not lead where this one "
-            "does; build it with this schedule (Export Schedule) or with none."
+            "the table was built for another schedule of sun and lacks tans of this one; build it "
+            "with this schedule (Export Schedule) or with none."
         )
     planes = [name for name in (COLOUR, WIDTH) if name in table.planes]
     appearance = table.lookup(states, planes)

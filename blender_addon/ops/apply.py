@@ -12,7 +12,7 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.apply"
     bl_label = "Apply Tan"
     bl_description = (
-        "Give the active object skin that tans over the timeline, by the settings of this panel"
+        "Give the active object skin that tans over the timeline, with the settings of this panel"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -100,7 +100,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     sunscreen: BoolProperty(
         name="Sunscreen",
-        description="The skin was under sunscreen. Where only a part of it was, paint the mask",
+        description="All of the skin had sunscreen on. If only a part had, paint the mask instead",
     )
     spf: FloatProperty(
         name="SPF",

@@ -87,7 +87,7 @@ def unknowns_of(start: Specimen, names: tuple[str, ...]) -> Unknowns:
     low, high = np.array([_bounds(start, name) for name in names]).T
     fields = [field for name in names for field in _fields(name)]
     if len(set(fields)) < len(fields):
-        raise InputError(f"free parameters are {', '.join(names)}; allowed is each only once.")
+        raise InputError(f"free parameters are {', '.join(names)}; allowed is no parameter twice.")
     return Unknowns(start, names, low, high)
 
 

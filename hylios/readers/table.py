@@ -14,7 +14,7 @@ from hylios.readers.quantities import Quantity, place
 from hylios.readers.text import lines_of, name_of
 
 THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
-"""Numbers with a comma that may be a decimal one or part thousands."""
+"""Numbers with a comma that may mark decimals or thousands."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +162,7 @@ def _the_only(tables: Sequence[Table], failures: Sequence[InputError]) -> Table:
         if not alike or not all(
             np.array_equal(first.numbers[title], other.numbers[title]) for title in first.numbers
         ):
-            raise InputError("its cells can be parted in two ways; allowed is one separator")
+            raise InputError("its cells can be separated in two ways; allowed is one separator")
     return first
 
 
@@ -192,7 +192,7 @@ def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Tab
 def _decimal_mark(cells: Sequence[tuple[int, str]]) -> str:
     """The one decimal mark of all numbers; a point where there is none.
 
-    A comma is taken as one only where some number shows that it does not part thousands.
+    A comma is taken as one only where some number shows that it does not mark thousands.
     """
     with_comma = [(line, cell) for line, cell in cells if "," in cell]
     if not with_comma:
@@ -200,7 +200,7 @@ def _decimal_mark(cells: Sequence[tuple[int, str]]) -> str:
     line, cell = with_comma[0]
     if all(THOUSANDS.fullmatch(cell) for _, cell in with_comma):
         raise InputError(
-            f"line {line} has the number {cell!r}, whose comma may be a decimal one or part "
+            f"line {line} has the number {cell!r}, whose comma may mark decimals or "
             "thousands; write a point"
         )
     pointed = [(other, number) for other, number in cells if "." in number and "," not in number]

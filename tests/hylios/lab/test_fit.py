@@ -91,8 +91,8 @@ def test_melanin_and_the_layer_that_holds_it_are_told_apart_badly():
     ("free", "sentence"),
     [
         (("melanin", "gold"), "there is nothing called 'gold' to fit"),
-        (("melanin", "melanosomes"), "allowed is each only once"),
-        (("blood", "blood"), "allowed is each only once"),
+        (("melanin", "melanosomes"), "allowed is no parameter twice"),
+        (("blood", "blood"), "allowed is no parameter twice"),
         ((), "nothing is free"),
     ],
 )

@@ -123,7 +123,7 @@ def test_layouts_that_mean_one_thing_are_read(lines):
         ("hour,first_sed\n1,1e999", "first_sed in line 2 is 1e999; allowed are finite numbers"),
         ("hour;first_sed\n1;2,5\n2;3.5", "line 2 has the number '2,5' and line 3 '3.5'; allowed"),
         ("hour;first_sed\n1;1.234,5", "expected a number"),
-        ('hour,first_sed\n1,"1,234"', "whose comma may be a decimal one or part thousands"),
+        ('hour,first_sed\n1,"1,234"', "whose comma may mark decimals or thousands"),
         ('hour,first_sed\n1,"2', "unexpected end of data"),
         ("hour,first_sed\n1,2" + 131_073 * "1", "line 2: field larger than field limit"),
         ("1,0.2O\n2,0.21", "line 1 is neither a header nor a row of numbers"),

@@ -125,7 +125,7 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
         ("build --bands blue -o {}/t.exr", "band is 'blue'; expected a number."),
         ("build --bands visible,200 -o {}/t.exr", "band is 200 nm; allowed is 250 to 2500 nm."),
         ("build --bands nan -o {}/t.exr", "band is nan nm"),
-        ("build --bands 365,365.0 -o {}/t.exr", "bands are 365, 365 nm; allowed is each once."),
+        ("build --bands 365,365.0 -o {}/t.exr", "bands are 365, 365 nm; allowed is no band twice."),
         ("build --profile-error 1 -o {}/t.exr", "error of the profile is 1; allowed is 0.0005 to"),
         ("build --nodes 5 -o {}/t.exr", "number of nodes is 5; allowed is 6 to 200."),
         ("build --schedule {}/none.csv -o {}/t.exr", "none.csv cannot be read: No such file"),

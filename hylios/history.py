@@ -26,7 +26,7 @@ LAST_DAY_LIMIT = 366.0
 """The last day that a scene may have."""
 
 COLUMNS = ("hour", "melanogenesis_sed", "thickening_sed")
-"""Of a schedule file."""
+"""Columns of a schedule file."""
 
 HEAD = """\
 # sun of {scene}, for a table of what it leads to alone; with the same skin:
@@ -71,7 +71,7 @@ def history_of_shares(
     med: float,
     shares: ArrayLike | None = None,
 ) -> ShareHistory:
-    """Where all shares of some doses lead.
+    """Tanning states after all shares of some doses.
 
     Parameters
     ----------

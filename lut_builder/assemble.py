@@ -24,7 +24,7 @@ from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelen
 from lut_builder.settings import Settings
 
 SOLVER_ERROR = 3e-4
-"""Of a reflectance by `hylios.adding`, rms against the random walk."""
+"""Error of a reflectance by `hylios.adding`, rms against the random walk."""
 
 Results = Mapping[str, Mapping[str, np.ndarray]]
 """Arrays of each piece by name."""

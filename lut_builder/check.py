@@ -150,7 +150,7 @@ def _computed_states(table: SkinTable) -> np.ndarray:
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
-    """Those of the states (N, 4) that are no knot of the table and that it holds."""
+    """The states, out of (N, 4), that the table holds and that are not its knots."""
     knots = np.log(_computed_states(table))
     apart = np.full(len(states), np.inf)
     for knot in knots:

@@ -15,17 +15,17 @@ from hylios.tanning import Exposures
 DAYS = 60
 MOST_EXPOSURES = 11
 LEAST_DOSE, MOST_DOSE = 0.35, 10.5
-"""Of the random schedules: days, exposures, and doses as multiples of the MMD."""
+"""Limits of the random schedules: days, exposures, and doses as multiples of the MMD."""
 
 HOURS_BETWEEN = 2.0
-"""Two looks at the skin in a scene."""
+"""Hours between two states of a scene."""
 
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
 
 LEAST_SPAN = 1e-6
-"""Of the states seen along an axis, in the logarithm; a narrower axis is rounding's and gets one
-knot, as all but the first in skin that makes no melanin in the sun."""
+"""Least span of the states along an axis, in the logarithm. A narrower axis comes from rounding and
+gets one knot, like all but the first in skin that makes no melanin in the sun."""
 
 
 def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:

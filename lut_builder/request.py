@@ -20,15 +20,15 @@ from hylios.tissue import Model
 from lut_builder.settings import Settings
 
 ANGLE = 8.0
-"""Of incidence, in degrees, as reflectance is measured."""
+"""Angle of incidence in degrees, as reflectance is measured."""
 
 STATES_TOGETHER = 24
-"""In one piece of colours."""
+"""States in one piece of colours."""
 
 ULTRAVIOLET_SECONDS, COLOUR_SECONDS = 0.9, 1e-3
 PROFILE_SECONDS, PATH_SECONDS = 0.3, 3e-6
-"""Of the absorptance, of a wavelength of a state, of any profile, and of each effective path of a
-state; about, on one core. Paths take a third in light skin and four times as much in dark skin."""
+"""About how long work takes on one core: the absorptance, a wavelength of a state, any profile, and
+an effective path of a state. Paths take a third in light skin, four times as much in dark skin."""
 
 
 @dataclass(frozen=True)

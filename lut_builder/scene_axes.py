@@ -16,12 +16,13 @@ from hylios.table import StateAxes
 from hylios.table.interpolation import interpolate
 
 NEAR = 0.01
-"""In the logarithm: states no farther apart count as one. Along an axis it is .09 CIEDE2000 at
+"""Distance in the logarithm within which states count as one. Along an axis it is .09 CIEDE2000 at
 most."""
 
 LONGER = 0.25
-"""Of the whole table's step on an axis: how much longer a scene's may be for one knot less. A table
-is as near the model with a quarter to a half of the states (`docs/choosing.md`)."""
+"""How much longer a scene's step on an axis may be for one knot less, as a share of the whole
+table's step. A table is as near the model with a quarter to a half of the states
+(`docs/choosing.md`)."""
 
 BENDING, RIDGE = 1e-2, 1e-6
 """Weights of the sheet's bends, and of its distance from the plane of the axes, per knot, against

@@ -18,7 +18,7 @@ BANDS_NM = (365.0, 1100.0, 1650.0)
 MOST_KNOTS, MOST_AXES, MOST_STATES = 100, 4, 20_000
 MOST_BANDS = 100
 FIRST_NM, LAST_NM = 250.0, 2500.0
-"""Of the spectra of what absorbs in skin."""
+"""First and last wavelength of the absorbers' spectra."""
 
 FEWEST_NODES, MOST_NODES = 6, 200
 LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR = 5e-4, 0.1

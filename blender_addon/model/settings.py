@@ -10,7 +10,7 @@ from hylios.history import LAST_DAY_LIMIT
 from hylios.table.provenance import MinimalDoses, minimal_doses
 
 LARGEST_MINIMAL_DOSE = 1000.0
-"""In SED; a hundred times that of the darkest skin."""
+"""Largest minimal dose in SED: a hundred times that of the darkest skin."""
 
 
 @dataclass(frozen=True)

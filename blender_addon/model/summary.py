@@ -21,7 +21,7 @@ LINE = 40
 
 
 def of_table(path: Path) -> tuple[str, ...]:
-    """From what dose the skin of a table tans and burns.
+    """Lines on the doses from which the skin of a table tans and burns.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def of_exposure(exposure: Exposure) -> str:
 
 
 def of_dose(exposure: Exposure, path: Path, own_doses: MinimalDoses | None) -> tuple[str, ...]:
-    """What dose reaches skin in an exposure.
+    """Lines on the dose that reaches skin in an exposure.
 
     Parameters
     ----------

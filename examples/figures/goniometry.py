@@ -41,7 +41,7 @@ STEP = 0.5
 """Degrees between the angles at which rays are counted."""
 
 DOTS = 2500
-"""Of each projection."""
+"""Dots in a projection."""
 
 
 @dataclass(frozen=True)

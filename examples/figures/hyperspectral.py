@@ -16,7 +16,7 @@ from hylios.skin.specimen import SPECIMENS
 FIGURES = ("6.6",)
 
 ANGLES = {"S3": 8.0, "S4": 16.75}
-"""Of incidence, degrees."""
+"""Angles of incidence in degrees."""
 
 CHECKED = np.arange(250.0, 2501.0, 150.0)
 """Wavelengths in nm at which rays walk too."""

@@ -14,7 +14,7 @@ from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 FIGURES = ("5.3", "C.1", "C.2", "C.3", "C.4", "C.5")
 
 ANGLE = 10.0
-"""Of incidence, degrees (C.1)."""
+"""Angle of incidence in degrees (C.1)."""
 
 WAVELENGTHS = np.arange(250.0, 1401.0, 5.0)
 CHECKED = np.arange(250.0, 1401.0, 50.0)

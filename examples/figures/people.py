@@ -27,7 +27,7 @@ from hylios.tissue import Model
 FIGURES = ("people",)
 
 ANGLE = 8.0
-"""Of incidence, degrees."""
+"""Angle of incidence in degrees."""
 
 REGIONS: Mapping[str, np.ndarray] = MappingProxyType(
     {

@@ -29,7 +29,7 @@ FIGURES = ("6.2", "6.3", "6.4")
 
 SHOWN = ("S1", "S2")
 ANGLE = 45.0
-"""Of incidence, degrees."""
+"""Angle of incidence in degrees."""
 
 VISIBLE = (400.0, 700.0)
 WAVELENGTHS = np.arange(400.0, 701.0, 5.0)

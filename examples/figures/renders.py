@@ -42,7 +42,7 @@ from lut_builder.settings import Settings
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 
 SETTINGS = Settings(knots=(9, 3, 2), profile_error=0.02, bands=())
-"""Of the tables: coarser than the standard preset."""
+"""Settings of the tables: coarser than the standard preset."""
 
 TABLE_AS_LONG = 4000
 """Wavelengths without noise that take as long as a table; only the time left follows from it."""

@@ -33,7 +33,7 @@ from hylios.skin.specimen import SPECIMENS, Specimen, with_values
 FIGURES = (*(f"6.{number}" for number in range(13, 19)), "table 6.3")
 
 ANGLE = 8.0
-"""Of incidence, degrees, as figure 6.6's curve of S3."""
+"""Angle of incidence in degrees, as in figure 6.6's curve of S3."""
 
 CHECKED = np.arange(250.0, 2501.0, 50.0)
 """Wavelengths in nm at which rays walk too."""

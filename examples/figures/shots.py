@@ -9,7 +9,7 @@ from hylios.skin import Skin
 from hylios.skin.specimen import SPECIMENS, Specimen
 
 SCHEDULES = tuple(tuple(tans.SCHEDULES[name]) for name in ("19 SED", "29 SED", "42 SED"))
-"""Of the upper, middle and lower patch: those of figure 6.23."""
+"""Schedules of the upper, middle and lower patch: those of figure 6.23."""
 
 BEACH: Schedule = ((0.0, 30.0),)
 """Figures 6.27 to 6.29."""

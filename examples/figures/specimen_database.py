@@ -8,7 +8,7 @@ import numpy as np
 from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, with_values
 
 TYPES = ("S3", "S4")
-"""Whose melanin and blood are varied."""
+"""Specimens whose melanin and blood are varied."""
 
 LEVELS = (0.75, 1.25)
 """Melanin and blood relative to the type's."""

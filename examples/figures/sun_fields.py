@@ -7,7 +7,7 @@ import numpy as np
 from examples.demo import swimsuit
 
 PATCH_HEIGHTS = (0.072, 0.0, -0.072)
-"""Of the three patches' centres over the middle one's, in metres."""
+"""Heights of the three patches' centres over the middle one's, in metres."""
 PATCH_HALF, PATCH_CORNER = 0.024, 0.008
 SUN_RADIUS, RAY_FROM, RAY_TO, RAY_WIDTH, RAYS = 0.034, 0.048, 0.074, 0.011, 12
 

@@ -157,7 +157,7 @@ def spectra(skin: Skin, tick: Tick) -> dict[str, Curve]:
 
 
 def spread(curves: Sequence[Curve], band: tuple[float, float]) -> float:
-    """Between the brightest and the darkest of some skins, in mean reflectance of a band."""
+    """Difference of the brightest and the darkest of some skins in mean reflectance of a band."""
     return float(np.ptp([curve.within(*band).mean() for curve in curves]))
 
 
@@ -261,7 +261,7 @@ def first_row(doses_by_skin: Mapping[str, float]) -> Row:
 
 
 def gain_rows(gains: Mapping[str, Gain]) -> list[Row]:
-    """In what measure the dark skin gains more than the light one at equal multiples of MMD."""
+    """By which measures the dark skin gains more than the light one at equal multiples of MMD."""
     place = MULTIPLES.index(COMPARED)
     measures = {
         "melanin relative to the start": ("relative", "{:.1%}"),

@@ -12,7 +12,7 @@ from hylios.transport.simulate import DISTANCE_EDGES, Progress, Spectrum, spectr
 
 FURTHEST = 15.0
 STEP = 0.05
-"""Of the places looked at, in mm from the line."""
+"""Distance in mm between the places where light is computed."""
 
 JUST_VISIBLE = 1.0
 """CIEDE2000."""

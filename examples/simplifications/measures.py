@@ -24,13 +24,13 @@ EVEN = np.arange(400.0, 701.0, 5.0)
 """Wavelengths of the full model, nm."""
 
 COARSE = EVEN[::4]
-"""Those at which variants of the model are timed."""
+"""Wavelengths at which variants of the model are timed."""
 
 RAYS = 100_000
 """Per wavelength, for the column of noise."""
 
 DRAWS = 20
-"""Of a simulation's chance, per skin."""
+"""Repeated simulations of a skin, with other random numbers."""
 
 Progress = Callable[[], object]
 """Called when a piece of work has ended."""

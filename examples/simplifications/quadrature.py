@@ -21,7 +21,7 @@ from hylios.lab.quadrature_choice import Colours, choose
 from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Quadrature
 
 FIRST, LAST = 400.0, 700.0
-"""Of the wavelengths to choose from: beyond, the eye sees little and spectra are guesses."""
+"""First and last wavelength to choose from: beyond, the eye sees little and spectra are guesses."""
 
 SKINS = 300
 

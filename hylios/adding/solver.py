@@ -161,7 +161,7 @@ def _added_up(
 def _floor(
     kind: str, cosine: np.ndarray, weight: np.ndarray, indices: np.ndarray, share: np.ndarray
 ) -> Below:
-    """At the lower face of the last layer; `indices` (S, 2) are those of its two sides.
+    """`Below` the lower face of the last layer; `indices` (S, 2) are those of its two sides.
 
     A diffuse floor reflects `share` (S,) of what meets it.
     """
@@ -190,7 +190,7 @@ def _through_layer(
     weight: np.ndarray,
     below: Below,
 ) -> Below:
-    """At the upper face of the layer with that number, from what is at its lower face."""
+    """`Below` the upper face of the layer with that number, from that at its lower face."""
     layers = [stack.layers[number] for stack in stacks]
     thickness, absorption = _values(layers, "thickness"), _values(layers, "absorption")
     rayleigh = _values(layers, "rayleigh")
@@ -248,7 +248,7 @@ def _met(layer: Layer, stack: Stack) -> tuple[float, float, float]:
 
 
 def _through_face(reflectance: np.ndarray, count: int, below: Below) -> Below:
-    """Above a flat face, where there are `count` directions, from what is below it.
+    """`Below` for light above a flat face, in `count` directions, from that under the face.
 
     `reflectance` (S, M) is that for light from below. Directions that only one side has are
     reflected totally.

@@ -16,7 +16,7 @@ their ranges in which the same happens to a ray. With many nodes more azimuths a
 that grazes: nearly as many as it has nodes."""
 
 ENTRY_TILTS, ENTRY_TURNS = 5, 4
-"""The same for light that comes in."""
+"""Normals of the rough surface, likewise, for light that comes in."""
 
 
 def fresnel(cosine, index_from, index_to) -> tuple[np.ndarray, np.ndarray]:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from hylios.errors import InputError
 
 SHORT = 2.0
-"""Seconds of work that nobody needs to be told of."""
+"""Seconds of work that needs no bar."""
 
 
 def prepare_streams() -> None:

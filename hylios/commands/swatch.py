@@ -24,7 +24,7 @@ reflectance as a grey, tinted violet or red; the tint is this project's choice.
 """
 
 MOST_PIXELS = 2**26
-"""Of a picture: a quarter of a gigabyte while it is written."""
+"""Most pixels of a picture: a quarter of a gigabyte while it is written."""
 
 
 def add_to(commands) -> None:

@@ -32,7 +32,7 @@ CONFOUNDED = 0.9
 """Correlation from which two unknowns are said to be told apart badly."""
 
 STEP = 1e-4
-"""Of the unknowns, for the slopes."""
+"""Step of the unknowns from which slopes are taken."""
 
 MARGIN = 0.05
 """Least distance of the start from the bounds, as a share of theirs; at a bound a fit is stuck."""
@@ -60,7 +60,7 @@ Observe = Callable[[Sequence[Specimen]], np.ndarray]
 
 @dataclass(frozen=True)
 class Free:
-    """One unknown of a fit, as it came out.
+    """Result of a fit for one unknown.
 
     Attributes
     ----------
@@ -96,7 +96,7 @@ class Free:
 
 @dataclass(frozen=True)
 class Fit:
-    """What came of a fit.
+    """Result of a fit.
 
     Attributes
     ----------

@@ -16,7 +16,7 @@ from hylios.readers.layout import NUMBER
 
 SVC_MARK = "/*** Spectra Vista"
 SVC_TITLES = "wavelength_nm reference target reflectance_percent"
-"""Of the columns of a .sig file below `data=`; its reflectance is in percent of the reference."""
+"""Titles of a .sig file's columns below `data=`; reflectance is in percent of the reference."""
 
 SEAMS = ((900.0, 1100.0), (1700.0, 2000.0))
 """Wavelengths in nm between which the detectors of an SVC take over from each other."""

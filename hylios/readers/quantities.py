@@ -73,7 +73,7 @@ SPELLINGS = {
     "angstroms": "å",
     "ångström": "å",
 }
-"""Of units, in small letters."""
+"""Other spellings of units, in small letters."""
 
 KNOWN_UNITS = {
     spelled for quantity in (WAVELENGTH, REFLECTANCE, IRRADIANCE) for spelled in quantity.units

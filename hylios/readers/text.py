@@ -9,7 +9,7 @@ from hylios.errors import InputError, shown
 from hylios.files import regular_bytes
 
 MOST_BYTES = 16 * 2**20
-"""Of a file; a spectrum by hundredths of a nm, or the doses of a century, have less."""
+"""Most bytes of a file; a spectrum by hundredths of a nm or the doses of a century have less."""
 
 MARKS = (
     (codecs.BOM_UTF8, "utf-8"),

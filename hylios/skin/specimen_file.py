@@ -13,10 +13,10 @@ from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import Specimen, parameters, specimen_of
 
 MOST_BYTES = 2**16
-"""Of a file; all parameters with their comments have a tenth of it."""
+"""Most bytes of a file; all parameters with their comments have a tenth of that."""
 
 LONGEST_LINE = 1000
-"""Characters of a line."""
+"""Most characters of a line."""
 
 
 def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:

@@ -100,7 +100,7 @@ def published_spectra() -> Spectra:
 
 
 LARGEST = 1e9
-"""Of an absorber in its unit: two thousand times any that is published."""
+"""Largest value of an absorber in its unit: two thousand times any that is published."""
 
 REFRACTIVE_INDICES = (1.0, 3.0)
 

@@ -23,7 +23,7 @@ FIRST_NM, LAST_NM = 280.0, 400.0
 """Range of light that counts: nothing acts beyond it, and skin is not tabulated below."""
 
 LARGEST_EXPOSURE = 1e15
-"""In J/m^2/nm; far beyond any, and its sums stay finite."""
+"""Largest exposure in J/m^2/nm: far beyond any real one, and its sums stay finite."""
 
 MELANOGENESIS, ERYTHEMA = "melanogenesis_action", "erythema_action"
 

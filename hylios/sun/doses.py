@@ -30,10 +30,10 @@ WATTS_PER_UV_INDEX = 0.025
 """Erythemal irradiance of one unit, W/m^2 (ISO/CIE 17166): .9 SED in an hour."""
 
 LONGEST = 240.0
-"""Hours of one exposure to a lamp or a UV index."""
+"""Most hours of one exposure to a lamp or a UV index."""
 
 INSTANTS = 12
-"""At which the sun is looked at, for each hour or share of one."""
+"""Instants in an hour, or a share of one, at which the sun's light is computed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ class Doses:
     thickening: np.ndarray
 
     def exposures(self) -> Exposures:
-        """For `hylios.tanning.simulate`.
+        """The doses as `hylios.tanning.simulate` takes them.
 
         Raises
         ------

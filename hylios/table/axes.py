@@ -10,10 +10,10 @@ STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 
 LARGEST_COORDINATE = 30.0
-"""Of a knot: a state 1e13 times the untanned one is no skin's."""
+"""Largest coordinate of a knot: a state 1e13 times the untanned one is no skin's."""
 
 LEAST_STEP = 1e-9
-"""Between two knots."""
+"""Least distance of two knots."""
 
 
 @dataclass(frozen=True)

@@ -17,14 +17,14 @@ MAGIC = b"\x76\x2f\x31\x01"
 VERSION = 2
 LONG_NAMES = 0x400
 LINES_PER_BLOCK = {0: 1, 2: 1, 3: 16}
-"""By OpenEXR's number of the compression: none, ZIP of single lines (ZIPS), ZIP of 16 lines."""
+"""Lines in a block, by OpenEXR's number of the compression: none, ZIPS (single lines), ZIP."""
 
 PIXEL_TYPES = {1: np.dtype("<f2"), 2: np.dtype("<f4")}
 LARGEST_PICTURE = 64 * 2**20
-"""Bytes of all pixels."""
+"""Most bytes of all pixels."""
 
 LARGEST_DEFLATION = 1032
-"""Deflate's: one byte of a file gives at most so many."""
+"""Most bytes that deflate gives from one byte of a file."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from hylios.table.skin_table import SkinTable
 from hylios.table.stored import CHECKSUM_ATTRIBUTE, HEADER_ATTRIBUTE, StoredTable, from_stored
 
 LARGEST_FILE = 64 * 2**20
-"""Bytes; the largest tables have a hundredth."""
+"""Most bytes of a file; the largest tables have a hundredth of that."""
 
 
 def read_table(path: Path) -> SkinTable:

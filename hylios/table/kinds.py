@@ -15,7 +15,7 @@ Kind = Callable[[str, Any], None]
 
 LONGEST_TEXT = 10_000
 DEEPEST = 20
-"""Of objects and lists in each other."""
+"""Most objects and lists nested in each other."""
 
 LARGEST_NUMBER = 1e300
 

@@ -37,7 +37,7 @@ class Meaning:
 
 
 MOST_REFLECTANCE = 1.5
-"""Of a colour's channel or a band; a saturated colour has more than 1 in one channel."""
+"""Largest value of a colour's channel or a band; saturated colours have more than 1 in one."""
 
 MEANINGS = {
     "subsurface_colour": Meaning(

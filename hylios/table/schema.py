@@ -44,7 +44,7 @@ LONGEST_HEADER = 1_000_000
 
 MOST_STATES, MOST_KNOTS, MOST_AXES, MOST_BANDS = 20_000, 100, 4, 100
 FIRST_NM, LAST_NM = 250.0, 2500.0
-"""Of the spectra."""
+"""First and last wavelength of the spectra."""
 
 _SED = number(0.01, 1000.0, "SED")
 _STATES = whole(0, MOST_STATES)
@@ -140,7 +140,7 @@ PROVENANCE: dict[str, Kind] = {
     "estimated_figures": list_of(text, 0, 1000),
     "absorptance": _absorptance,
 }
-"""Of the provenance, in which each key may be missing; other keys may hold any plain value."""
+"""Kinds of the provenance's keys. Any key may be missing; other keys may hold any plain value."""
 
 _COORDINATES = number(-LARGEST_COORDINATE, LARGEST_COORDINATE)
 _AXIS = holding(

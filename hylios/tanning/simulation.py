@@ -186,7 +186,7 @@ def simulate_in_parts(
 
 
 def _count(hours: int, step: float) -> int:
-    """Of the steps from hour 0 to the last, both among them."""
+    """Number of the steps from hour 0 to the last, both counted."""
     return int(hours / step + 1e-9) + 1
 
 
@@ -352,7 +352,7 @@ def _growth(response: np.ndarray, dynamics: ThicknessDynamics, step: int) -> np.
 
 
 def _departure(decay: np.ndarray | float, added: np.ndarray, step: int) -> np.ndarray:
-    """From 0 at the first mark on, decay and addition being those of an hour."""
+    """Departure that begins with 0 at the first mark; decay and addition are those of an hour."""
     if step > 1:
         decay_by_step = decay**step
         added = added * ((1.0 - decay_by_step) / (1.0 - decay))

@@ -34,7 +34,7 @@ import numpy as np
 from hylios.tissue import Layer
 
 USUAL_COSINE = 0.85
-"""Of light in the epidermis, for the closed lengths at the faces, which depend on it little."""
+"""Cosine of light in the epidermis; the closed lengths at the faces hardly depend on it."""
 
 LEFT_OUT = {"complexes": 1.004, "single": 1.003}
 """Factors on the coefficient of melanosomes that turn light, for what the means leave out.

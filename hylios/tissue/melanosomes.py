@@ -17,7 +17,7 @@ MOST_MELANOSOMES_MET = 2e4
 """How many melanosomes a ray may be expected to meet in one layer: some milliseconds' work."""
 
 COMPLEX_RADIUS = {"individual": 0.0, "complexes": 2.0, "compact_complexes": 1.0}
-"""Of a complex, in half major axes of its melanosomes; 0 where melanosomes are single."""
+"""Radius of a complex in half major axes of its melanosomes; 0 where melanosomes are single."""
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Model:
 
     @property
     def own_spectra(self) -> dict[str, Spectrum]:
-        """Those spectra that are not the published ones."""
+        """Spectra that are not the published ones."""
         published = published_spectra()
         return {
             name: spectrum

@@ -25,7 +25,7 @@ _OPTIONS: dict[str, Any] = {"_nrt": False, "forceinline": True, "error_model": "
 
 @cache
 def digest_of_sources(folder: Path) -> str:
-    """Of all Python files in this folder and in another."""
+    """Digest of all Python files in this folder and in another."""
     digest = hashlib.sha256()
     for path in sorted({*Path(__file__).parent.glob("*.py"), *folder.glob("*.py")}):
         digest.update(path.read_bytes())

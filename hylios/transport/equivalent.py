@@ -188,7 +188,7 @@ walk_equivalent, walk_with_sums = _walk(False), _walk(True)
 
 @part
 def _optics(layers, here, surroundings, readings):
-    """Of the melanosomes in a layer, as `survives_melanosome` takes them."""
+    """Optics of the melanosomes in a layer, as `survives_melanosome` takes them."""
     return (
         layers[here, MELANIN],
         surroundings[MELANIN_INDEX],

@@ -61,7 +61,7 @@ def at_face(layers, here, position, ray):
 
 @part
 def half_axes(layers, here):
-    """Of the melanosomes in a layer: minor and major."""
+    """Half axes of the melanosomes in a layer: minor and major."""
     return layers[here, SEMI_MINOR], layers[here, SEMI_MAJOR]
 
 

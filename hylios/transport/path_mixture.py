@@ -22,7 +22,7 @@ LIGHTER = 0.6
 out, and weigh less. The fewest seconds per effective path, flatly, at .5 to .7 for S3 and S4."""
 
 PILOT_RAYS, PILOT_PATHS, PILOT_ROUNDS = 64, 512, 48
-"""Of the trial before rays are allocated: rays per state and round, paths wanted, most rounds."""
+"""The trial before rays are allocated: rays per state and round, paths wanted, most rounds."""
 
 BLOCK = 4096
 """Paths weighted at once."""
@@ -51,7 +51,7 @@ class Mixture:
 
     @classmethod
     def of(cls, stacks: Sequence[Stack]) -> "Mixture":
-        """Of states of any thickness; paths are walked in the middle one's."""
+        """A mixture of states of any thickness; paths are walked in the middle one's."""
         thickness = np.array([total_thickness(stack) for stack in stacks])
         middle = float(np.sort(thickness)[thickness.size // 2])
         states = [rescaled(stack, middle) for stack in stacks]

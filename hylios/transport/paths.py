@@ -31,7 +31,7 @@ SQUEEZES = 4
 """Steps in which the amount of melanosomes met is kept when layers are squeezed."""
 
 LEAST = 1e-300
-"""In the place of 0 where it is divided by or its logarithm is taken."""
+"""Stands for 0 where a division or a logarithm needs more."""
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ def ready(stack: Stack) -> Stack:
 
 
 def total_thickness(stack: Stack) -> float:
-    """In cm."""
+    """Thickness of all layers in cm."""
     return float(sum(layer.thickness for layer in stack.layers))
 
 

@@ -78,7 +78,7 @@ class RadialExitance:
 
     @property
     def area(self) -> np.ndarray:
-        """Of each ring, (N,) in mm^2."""
+        """Areas of the rings, (N,) in mm^2."""
         return np.pi * np.diff(self.edges**2)
 
     @property

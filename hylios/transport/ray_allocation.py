@@ -3,7 +3,7 @@
 import numpy as np
 
 STEPS = 50
-"""Of the iteration that allocates rays."""
+"""Steps of the iteration that allocates rays."""
 
 SPARE = 1.05
 """Factor on what is missing where more rays are added, for noise not to leave it missing."""
@@ -15,7 +15,7 @@ MOST_PER_PATH = 400
 """Rays per effective path after which a state that lets out hardly any light is left as it is."""
 
 LEAST = 1e-300
-"""In the place of 0 where it is divided by."""
+"""Stands for 0 in a divisor."""
 
 
 def allocate_rays(proposed: np.ndarray, wanted: np.ndarray, limit: np.ndarray) -> np.ndarray:
@@ -55,7 +55,7 @@ def allocate_rays(proposed: np.ndarray, wanted: np.ndarray, limit: np.ndarray) -
 
 
 def rays_missing(reached: np.ndarray, limit: np.ndarray) -> np.ndarray:
-    """Of the rays spent, how many more each state needs, (S,); 0 where none.
+    """How many times the rays spent every state needs besides, (S,); 0 where none.
 
     Parameters
     ----------

@@ -33,16 +33,16 @@ DOUBT = 4.0
 """Standard errors by which a state's trial may have more light than shared paths find."""
 
 PIECES = 4
-"""Of rays that are counted between looks at how many came out."""
+"""Pieces of rays between two counts of how many came out."""
 
 LIGHT = 0.3
 """Share of light from which on a profile has the error that was asked for."""
 
 LARGEST_ERROR = 0.1
-"""Of the profile of however little light."""
+"""Largest error of a profile, however little its light."""
 
 LEAST_LIGHT = 1e-300
-"""In the place of none, of which a root is taken."""
+"""Stands for no light where a root is taken."""
 
 
 @dataclass(frozen=True)

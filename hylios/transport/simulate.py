@@ -130,7 +130,7 @@ class Counts:
 
     @classmethod
     def none(cls, layers: int) -> "Counts":
-        """Of no rays through so many layers."""
+        """Counts of no rays through so many layers."""
         return cls(
             np.zeros(3, np.int64),
             np.zeros((2, layers), np.int64),

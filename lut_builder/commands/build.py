@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from lut_builder.jobs.run import Runner
 
 SCENE_DAYS = 60.0
-"""Of a schedule's scene by default."""
+"""Days of a schedule's scene by default."""
 
 SHORT = 5.0
 """Seconds of work below which the start of other processes does not pay."""

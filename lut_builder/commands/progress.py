@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 SECONDS_LEFT = "{desc}: {percentage:3.0f}%|{bar}| {elapsed}, {remaining} left"
-"""Of a bar whose steps are seconds by an estimate, which is not worth printing."""
+"""Format of a bar whose steps are estimated seconds, which are not worth printing."""
 
 
 @contextmanager

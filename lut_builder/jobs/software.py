@@ -10,7 +10,7 @@ from pathlib import Path
 import hylios
 
 LIBRARIES = ("colour-science", "numba", "numpy", "scipy")
-"""Whose versions may move the last digits of a result."""
+"""Libraries whose versions may change the last digits of a result."""
 
 SOURCES = {".py", ".csv", ".toml"}
 """Suffixes of the project's files that decide a result."""

@@ -15,11 +15,11 @@ from hylios.errors import InputError
 from hylios.files import HALF_WRITTEN, require_target
 
 OURS = "skin-tan-"
-"""What the names of all files in the folder begin with."""
+"""Beginning of the names of all files in the folder."""
 
 UNITS = OURS + "*.unit"
 MARKER = OURS + "unfinished.txt"
-"""The file by which the folder is known."""
+"""Name of the file that marks the folder as ours."""
 
 MEANING = "Results of unfinished work, by skin-tan. They are removed once the work is done.\n"
 

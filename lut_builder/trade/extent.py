@@ -15,10 +15,10 @@ BROAD = np.arange(250.0, 2501.0, 25.0)
 COMPONENTS = (1, 2, 3, 4, 8)
 
 BASE_WAVELENGTHS = 8
-"""Of the colours where something else is varied."""
+"""Wavelengths of the colours where something else is varied."""
 
 SECONDS_EACH = 1.5e-3
-"""Of one reflectance with the usual number of directions, for the time left alone."""
+"""Seconds of one reflectance with the usual number of directions, only to tell the time left."""
 
 
 @dataclass(frozen=True)

@@ -110,7 +110,7 @@ def measure(
 
 
 def notes(skins: Sequence[Skin], extent: Extent) -> list[str]:
-    """Of which machine, day and skins a measurement is."""
+    """The machine, day and skins of a measurement."""
     names = "; ".join(f"{skin.specimen.name}, pigmentation {skin.pigmentation}" for skin in skins)
     several = ": of each table the slowest and least accurate" if len(skins) > 1 else ""
     return [

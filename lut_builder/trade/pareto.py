@@ -15,7 +15,7 @@ PRESET_LIMITS = {
     "standard": (30.0, 0.1, 0.3),
     "reference": (600.0, 0.1, 0.3),
 }
-"""Of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
+"""Limits of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
 
 What presets may take is 3, 60 and 1200 s with the start; but for the preview, most of which is the
 start, half of it is left to slower machines."""

@@ -17,12 +17,12 @@ from lut_builder.settings import PRESETS, Settings
 
 SHIPPED = "front.csv"
 CORES = 2
-"""Of the seconds by which points are compared."""
+"""Cores for the seconds by which points are compared."""
 
 
 @dataclass(frozen=True)
 class Point:
-    """What a table costs and is worth.
+    """Time and error of a table.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Point:
     profile_lightness: float = 0.0
 
     def seconds(self, cores: int = CORES) -> float:
-        """On so many cores of the machine that measured."""
+        """Seconds on so many cores of the machine that measured."""
         return self.start_seconds + self.serial_seconds + self.shared_seconds / cores
 
     @property
@@ -75,7 +75,7 @@ def named(point: Point) -> str:
 
 
 def described(point: Point, cores: int = CORES) -> str:
-    """One line: what is chosen, its time and its error."""
+    """One line on a point: its settings, time and error."""
     made = point.settings
     text = f"knots {','.join(map(str, made.knots))} {made.interpolation}"
     text += f", {made.colour_wavelengths} wavelengths, {made.nodes} nodes"

@@ -45,7 +45,7 @@ class Cost:
     first: float
 
     def seconds(self, states: int, wavelengths: int) -> float:
-        """Of a table's colours and bands."""
+        """Seconds of a table's colours and bands."""
         return wavelengths * (self.first + states * self.later)
 
 

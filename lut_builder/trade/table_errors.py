@@ -22,7 +22,7 @@ from lut_builder.trade.single import FineProfiles, Run, colours, lightness_lost,
 
 @dataclass(frozen=True)
 class ColourError:
-    """Of colours and bands of a table at states between its knots, as in `Point`."""
+    """Errors of a table's colours and bands at states between its knots, as in `Point`."""
 
     mean: float
     largest: float
@@ -31,7 +31,7 @@ class ColourError:
 
 @dataclass(frozen=True)
 class ProfileError:
-    """Of profiles of a table at states between its knots, and their time, as in `Point`."""
+    """Errors of a table's profiles at states between its knots, and their time, as in `Point`."""
 
     error: float
     shared: float
@@ -139,5 +139,5 @@ def _profile_error(run: Run, fine: FineProfiles) -> ProfileError:
 
 
 def root_mean_square(values: np.ndarray) -> float:
-    """Of all values together."""
+    """Root mean square of all values together."""
     return float(np.sqrt(np.mean(np.square(values))))

@@ -85,7 +85,7 @@ class Medium:
 
     @property
     def mean_free_path(self) -> np.ndarray:
-        """Of transport, l = 1 / sigma_t', in mm."""
+        """Transport mean free path, l = 1 / sigma_t', in mm."""
         return 1.0 / (self.absorption + self.reduced_scattering)
 
     @property

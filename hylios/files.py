@@ -10,7 +10,7 @@ from pathlib import Path
 from hylios.errors import InputError, shown
 
 HALF_WRITTEN = ".skin-tan-"
-"""What the name of a file begins with while it is being written."""
+"""Beginning of a file's name while it is being written."""
 
 
 def regular_bytes(path: Path, most: int) -> bytes:

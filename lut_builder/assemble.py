@@ -126,7 +126,7 @@ def _state_plane(request: Request, within: float) -> np.ndarray:
 
 
 def _nearest_computed(needed: np.ndarray) -> np.ndarray:
-    """For each knot the number of the computed state that stands for it, its own or the nearest."""
+    """Number of the computed state that stands for a knot: its own, or the nearest."""
     computed_knots = np.argwhere(needed)
     return np.array(
         [((computed_knots - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
@@ -202,7 +202,7 @@ def _profile_planes(
 
 
 def provenance(request: Request) -> dict:
-    """What a table's header says of how it was asked to be made."""
+    """What a table's header says about how it was made."""
     skin, settings = request.skin, request.settings
     model = request.model
     return {

@@ -24,7 +24,7 @@ FINE = np.arange(400.0, 701.0, 5.0)
 NOISE_DRAWS = 200
 
 Progress = Callable[[float], object]
-"""Told how many more states are done, be it a part of one."""
+"""A function that is told how many more states are done, be it a part of one."""
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ def _or_raise(result):
 
 
 def stamp(path: Path) -> tuple[int, int]:
-    """What changes with a file's contents."""
+    """Numbers that change with a file's contents."""
     try:
         status = path.stat()
     except (OSError, ValueError) as error:  # a name may hold what no file's can

@@ -196,7 +196,7 @@ def _new_node(group, role: str):
 
 
 def _input(node, socket: str | int):
-    """By number, identifier or name: a Principled BSDF hides the names of some sockets."""
+    """An input by number, identifier or name: a Principled BSDF hides the names of some sockets."""
     if isinstance(socket, int):
         return node.inputs[socket]
     by_identifier = {item.identifier: item for item in node.inputs}

@@ -37,7 +37,7 @@ class NewBlocks:
 
 
 class Users:
-    """What uses what in the file, as it was when this was made."""
+    """Which data-blocks use which in the file, as it was when this was made."""
 
     def __init__(self) -> None:
         self._users = bpy.data.user_map(key_types={"IMAGE", "MATERIAL", "MESH", "NODETREE"})

@@ -10,7 +10,7 @@ from hylios.tanning import Exposures
 
 DOSE = 30.0  # SED, on day 0
 DAYS = (0, 2, 10, 30)
-"""Days of a tan; day 0 is the skin before it, its melanin as the tanning model spreads it (5.16)."""
+"""Days of a tan; day 0 is the skin before, its melanin as the tanning model spreads it (5.16)."""
 
 
 def tan(specimen: Specimen) -> list[Specimen]:

@@ -14,7 +14,7 @@ from hylios.spectra import require_wavelengths
 from hylios.tissue import Model
 
 TOGETHER = 16
-"""States solved at once: after each so many progress is told."""
+"""States solved at once; progress is told after every batch."""
 
 
 @dataclass(frozen=True)

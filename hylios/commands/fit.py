@@ -94,7 +94,7 @@ MOST_WAVELENGTHS = 61
 
 
 def _wavelengths(text: str | None, measured: np.ndarray) -> np.ndarray:
-    """Wavelengths of the option, or up to `MOST_WAVELENGTHS` of the measured ones, evenly spread."""
+    """Wavelengths of the option, or up to `MOST_WAVELENGTHS` of the measured ones, evenly apart."""
     if text is None:
         count = min(measured.size, MOST_WAVELENGTHS)
         return measured[np.round(np.linspace(0, measured.size - 1, count)).astype(int)]

@@ -16,7 +16,7 @@ BAND_OPACITY = 0.25
 
 
 def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
-    """Reflectance over wavelength, one line each, with a band of one standard error each way."""
+    """Reflectance over wavelength: a line for a spectrum, and its standard error as a band."""
     figure = Figure(figsize=SIZE_INCHES, dpi=DOTS_PER_INCH, layout="constrained")
     axes = figure.add_subplot()
     for number, spectrum in enumerate(spectra):

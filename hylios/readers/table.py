@@ -133,7 +133,7 @@ def table_of(
 
 
 def _readings(lines, name, needed, welcome, as_pair) -> tuple[list[Table], list[InputError]]:
-    """What comes of lines with every separator that occurs in them, and why others failed."""
+    """Tables by every separator that occurs in the lines, and why other separators failed."""
     tables, failures = [], []
     occurring = [mark for mark in SEPARATORS if any(mark in line for line in lines)]
     for separator in occurring or [","]:

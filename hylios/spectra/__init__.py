@@ -30,7 +30,7 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """One spectrum with its unit, its source and what of it is an estimate.
+    """One spectrum with its unit and source, and the parts that are estimates.
 
     Attributes
     ----------

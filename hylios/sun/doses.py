@@ -130,7 +130,7 @@ def of_spectrum(
     hour : float
         Of the beginning.
     wavelengths, irradiance : (W,) arrays, nm and W/m^2/nm
-        What of it counts is said in `melanogenesis_dose`.
+        `melanogenesis_dose` says which part of it counts.
     seconds : float
         0 to 864000.
     absorptance : Absorptance

@@ -123,7 +123,7 @@ def sunlight(zenith: ArrayLike, sky: ClearSky, distance: ArrayLike = 1.0) -> Sun
 
 
 def _optical_depths(sky: ClearSky) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Vertical optical depths (W,): molecules, ozone, aerosol, and what of it scatters."""
+    """Vertical optical depths (W,): molecules, ozone, aerosol, and the aerosol's scattering."""
     nanometres, _, section = _columns()
     micrometres = nanometres / 1000.0
     pressure = np.exp(-sky.altitude / 8434.0)  # of that at the sea; scale height of 288 K

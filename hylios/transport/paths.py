@@ -191,7 +191,7 @@ def require_alike(stacks: Sequence[Stack]) -> None:
 
 
 def _surroundings(stack: Stack) -> tuple:
-    """What of a stack must be the same for paths to be shared."""
+    """The parts of a stack that must be the same for paths to be shared."""
     return (
         stack.roughness,
         stack.lambertian_floor,

@@ -67,7 +67,7 @@ def rays_missing(reached: np.ndarray, limit: np.ndarray) -> np.ndarray:
 
 
 def worthwhile(missing: np.ndarray, alone: np.ndarray) -> float:
-    """Of the rays spent, how many more to share, and leave to themselves who need yet more.
+    """How many times the rays spent to share besides; states that need more are left to themselves.
 
     The fewest rays in all, where `missing` (S,) is from `rays_missing` and `alone` (S,) what each
     state would need by itself.

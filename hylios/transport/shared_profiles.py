@@ -240,7 +240,7 @@ def _pooled(
 
 
 def _missing(pooled: Profiles, trial: tuple[np.ndarray, np.ndarray], error: float) -> np.ndarray:
-    """Of the rays spent, how many more each state needs for its limit, (S,); 0 where none.
+    """How many times the rays spent every state needs besides for its limit, (S,); 0 where none.
 
     Weights that go with distance can make the profile less sure than so many equal paths would.
     And where paths of others miss most of a state's light, their weights do not show it: its own

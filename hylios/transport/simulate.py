@@ -244,7 +244,7 @@ def share_error(counts: np.ndarray, rays: int) -> np.ndarray:
 
 
 Progress = Callable[[int], object]
-"""Told, as each piece of work ends, how many rays it had."""
+"""A function that is told how many rays a piece of work had, as it ends."""
 
 
 def spectrum(
@@ -345,7 +345,7 @@ def _of_counts(
 
 
 def _absorber_shares(specimen: Specimen, wavelengths: np.ndarray, model: Model) -> np.ndarray:
-    """Of each layer's absorption, each absorber's share (W, L, A); 0 where nothing absorbs."""
+    """Shares (W, L, A) that absorbers have in a layer's absorption; 0 where nothing absorbs."""
     coefficients = absorbers(specimen, wavelengths, model=model)
     none = np.zeros(wavelengths.size)
     table = np.array([[coefficients[part].get(name, none) for name in ABSORBERS] for part in PARTS])

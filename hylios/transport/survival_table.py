@@ -23,7 +23,7 @@ PATHS = 1 << 19
 """Paths of one stream of random numbers."""
 
 STREAMS = 16
-"""In all 8.4 million paths, whose mean length has a standard error of 0.04 % of itself."""
+"""Streams of an entry: 8.4 million paths, whose mean length has a standard error of 0.04 %."""
 
 BINS = 1 << 12
 """Equally filled bins of each stream's lengths, of which the means are kept."""

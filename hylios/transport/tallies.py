@@ -11,7 +11,7 @@ from hylios.transport.simulate import CHUNK, MOST_RAYS, Rays, ready_to_walk, tra
 
 
 def stream_key(seed: int, wavelength: float) -> tuple[int, int]:
-    """What names the random numbers of a wavelength, in nm: the same as in a spectrum.
+    """Key of the random numbers of a wavelength in nm: the same as in a spectrum.
 
     Raises
     ------

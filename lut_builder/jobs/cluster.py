@@ -106,7 +106,7 @@ def _client(address: str):
 
 
 def _quieten() -> None:
-    """What goes wrong is said by our exceptions; each of Dask's loggers has a level of its own."""
+    """Silence Dask's loggers, one by one: our exceptions say what goes wrong."""
     for name in [*logging.root.manager.loggerDict]:
         if name.split(".")[0] in {"asyncio", "distributed"}:
             logging.getLogger(name).setLevel(logging.CRITICAL)

@@ -23,7 +23,7 @@ from lut_builder.jobs.unfinished import unit_file
 from lut_builder.jobs.units import Arrays, Unit, is_result, unit_digest, unpacked
 
 Runner = Callable[[Sequence[Unit], str], Generator[tuple[Unit, bytes], None, None]]
-"""Does units for software of a digest; gives each with the bytes of `perform` as it ends."""
+"""A function that does units for software of a digest; it gives a unit and its bytes as it ends."""
 
 
 def run_units(

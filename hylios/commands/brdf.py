@@ -8,11 +8,12 @@ from hylios.commands.beam import add_beam_arguments, simulated
 from hylios.commands.shell import note_estimates, print_table
 
 DESCRIPTION = """\
-One row for each bin of directions: its middle in polar angle (0 is the skin's normal) and azimuth
-(0 is the side to which a mirror sends the light, 180 the side it came from; left and right of the
-plane of incidence are alike and counted together), its projected solid angle, and the mean BRDF in
-it, of light that the surface reflects, of light that was inside, and of both with its standard
-error, in 1/sr. Total times projected solid angle, summed over all rows, is the reflectance.
+Prints one row for a bin of directions: the polar angle and azimuth of its middle, its projected
+solid angle, and its mean BRDF in 1/sr: of light that the surface reflects, of light that was
+inside, and of both, with the standard error. The polar angle is 0 along the skin's normal. The
+azimuth is 0 on the side to which a mirror sends the light and 180 where the light comes from; both
+sides of the plane of incidence are alike and counted together. Total times projected solid angle,
+summed over all rows, is the reflectance.
 """
 
 

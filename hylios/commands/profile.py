@@ -9,10 +9,10 @@ from hylios.commands.beam import add_beam_arguments, simulated
 from hylios.commands.shell import note_estimates, print_table
 
 DESCRIPTION = """\
-One row for each ring around the point where a pencil beam comes in: its inner and outer radius in
-mm, the radial exitance R(r) in it with its standard error, and the mean over it of the fitted
-Burley profile, in 1/mm^2. R times the rings' areas, summed, is the subsurface reflectance (but for
-light beyond the last ring, which is said). The fitted width d is said on standard error; Cycles'
+Prints one row for a ring around the point where a pencil beam comes in: its inner and outer radius
+in mm, its radial exitance R(r) in 1/mm^2 with the standard error, and the mean of the fitted Burley
+profile over the ring. R times the rings' areas, summed, is the subsurface reflectance, without the
+light beyond the last ring. Notes on standard error give that light and the fitted width d; Cycles'
 radius is 4 pi 1.04 d = 13.07 d. With --fit there is one row only: the reflectance and the width.
 """
 

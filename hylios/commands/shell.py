@@ -116,7 +116,7 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
     add_specimen_arguments(parser, "--specimen")
     for option, metavar, help_text in (
         ("--reading", "NAME=CHOICE", "another reading of the thesis (hylios.tissue.READINGS)"),
-        ("--own-spectrum", "NAME=FILE", "your own spectrum of an absorber: CSV of nm and value"),
+        ("--own-spectrum", "NAME=FILE", "your own spectrum in place of NAME: CSV of nm and value"),
         ("--figure", "NAME=FILE", argparse.SUPPRESS),  # what --own-spectrum was called
     ):
         parser.add_argument(

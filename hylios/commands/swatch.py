@@ -18,9 +18,10 @@ from hylios.files import require_target
 from hylios.readers.spectrum import NamedSpectrum, read_spectra
 
 DESCRIPTION = """\
-One square for each CSV file as `hylios reflectance` prints it, or for a specimen simulated now.
-Visible: the colour under D65. Ultraviolet (250 to 400 nm) and infrared (700 to 2500 nm): the mean
-reflectance as a grey, tinted violet or red; the tint is this project's choice.
+Draws a square for every CSV file that `hylios reflectance` printed, or one for a specimen that it
+simulates. A visible swatch is the colour under D65. A swatch of the ultraviolet (250 to 400 nm) or
+the infrared (700 to 2500 nm) is the mean reflectance as a grey, tinted violet or red; the tint is
+this project's choice.
 """
 
 MOST_PIXELS = 2**26
@@ -38,7 +39,12 @@ def add_to(commands) -> None:
     )
     add_skin_arguments(parser)
     add_work_arguments(parser)
-    parser.add_argument("--band", choices=("visible", "uv", "ir"), default="visible")
+    parser.add_argument(
+        "--band",
+        choices=("visible", "uv", "ir"),
+        default="visible",
+        help="band of wavelengths to show (default: visible)",
+    )
     parser.add_argument(
         "--angle", type=float, default=8.0, help="angle of incidence in degrees (default: 8)"
     )

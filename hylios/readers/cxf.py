@@ -10,6 +10,7 @@ schema and needs xsdata, a package more in the wheel that Blender carries.
 """
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from xml.parsers import expat
@@ -27,7 +28,7 @@ OBJECT = ["CxF", "Resources", "ObjectCollection", "Object"]
 SPECTRUM = [*OBJECT, "ColorValues", "ReflectanceSpectrum"]
 SPECIFICATION = ["CxF", "Resources", "ColorSpecificationCollection", "ColorSpecification"]
 RANGE = [*SPECIFICATION, "MeasurementSpec", "WavelengthRange"]
-BEGINNING = re.compile(r"\s*(<!--.*?-->\s*)*<(\?xml|([\w.-]+:)?CxF)[\s>]", re.DOTALL)
+BEGINNING = re.compile(r"\s*(<!--(?:(?!-->).)*-->\s*)*<(\?xml|([\w.-]+:)?CxF)[\s>]", re.DOTALL)
 LINES_OF_BEGINNING = 20
 
 
@@ -88,8 +89,9 @@ def cxf_table(lines: Sequence[str], name: str, sample: str | None = None) -> Tab
         spectra, ranges = _parsed("\n".join(lines))
         names = [spectrum.names for spectrum in spectra]
         titles = [called[0] if called else "" for called in names]
+        counts = Counter(titles)
         labels = [
-            title if titles.count(title) == 1 or not title else f"{title}/{spectrum.specification}"
+            title if counts[title] == 1 or not title else f"{title}/{spectrum.specification}"
             for title, spectrum in zip(titles, spectra, strict=True)
         ]
         spectrum = the_sample(spectra, names, labels, sample)

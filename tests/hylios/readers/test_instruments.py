@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hylios.commands.cli import main
+from hylios.commands.shell import note_omissions
 from hylios.errors import InputError
 from hylios.readers.cgats import cgats_table
-from hylios.readers.cxf import NAMESPACE, cxf_table
+from hylios.readers.cxf import NAMESPACE, cxf_table, is_cxf
 from hylios.readers.quantities import Quantity
 from hylios.readers.spectrum import read_spectrum, read_transmittance
 from hylios.readers.table import table_of
@@ -69,9 +69,7 @@ def test_other_steps_back_are_refused(tmp_path, wavelengths, line):
 
 
 def test_a_shell_says_what_was_left_out(tmp_path, capsys):
-    path = tmp_path / "arm.sig"
-    path.write_text(svc(380.0, 780.0, 1000.0, 990.0, 1100.0))
-    main(["swatch", str(path), "-o", str(tmp_path / "arm.png"), "--size", "4"])
+    note_omissions([spectrum_of(tmp_path, svc(380.0, 780.0, 1000.0, 990.0, 1100.0))])
     assert "note: arm: two detectors overlap from 990 to 1000 nm" in capsys.readouterr().err
 
 
@@ -249,3 +247,19 @@ def test_a_log_below_a_sunscreens_numbers_is_passed_over(tmp_path):
     wavelengths, transmittance = read_transmittance(path)
     assert wavelengths.tolist() == [300.0, 310.0]
     assert transmittance == pytest.approx([0.01, 0.1])
+
+
+def test_a_file_of_many_objects_is_read_in_proportion_to_their_number():
+    """Labels were counted once for each label, which took minutes for 16 MB."""
+    objects = "".join(cxf_object(f"patch {place}", cxf_spectrum()) for place in range(20_000))
+    text = cxf(objects, cxf_range())
+    assert cxf_table(text.split("\n"), "x.cxf", "patch 19999").numbers["total"].tolist() == [
+        0.25,
+        0.5,
+    ]
+
+
+def test_comments_above_are_passed_over_in_proportion_to_their_number():
+    comments = "<!-- by somebody -->" * 2000
+    assert is_cxf([comments + "<CxF>"])
+    assert not is_cxf([comments + "text"])

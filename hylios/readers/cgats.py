@@ -1,7 +1,8 @@
-"""Reflectance spectra in CGATS files (ISO 28178 and its forerunners): a sample a row.
+"""Reflectance spectra in CGATS files (ISO 28178 and its forerunners): every row is a sample.
 
-A field for each wavelength, called SPECTRAL_NM400, SPEC_400, NM400, R_400 or the like; or in
-pairs, SPECTRAL_NM beside SPECTRAL_PCT or SPECTRAL_DEC. `SPECTRAL_NORM` says what counts as 1.
+A row has a field for every wavelength, called SPECTRAL_NM400, SPEC_400, NM400, R_400 or the like;
+or it has pairs, SPECTRAL_NM beside SPECTRAL_PCT or SPECTRAL_DEC. `SPECTRAL_NORM` says what counts
+as 1.
 """
 
 import re

@@ -1,8 +1,8 @@
-"""Reflectance spectra in CxF3 files (ISO 17972-1), X-Rite's XML: an object a sample.
+"""Reflectance spectra in CxF3 files (ISO 17972-1), X-Rite's XML: every object is a sample.
 
 A spectrum gives its first wavelength, `StartWL`, and values from 0 to 1; the step is that of the
-`WavelengthRange` in the colour specification that it names. Where there is no step the file is
-refused: 10 nm is usual, and no rule.
+`WavelengthRange` in the colour specification that it names. A file without a step is refused, for
+10 nm is usual but no rule.
 
 The standard library's expat parses it as events, so that no more is kept than spectra. A document
 type, and with it entities, is refused. Weighed in place of this: colour-cxf, which builds the whole

@@ -1,4 +1,4 @@
-"""The one sample of a file that is meant, by its name."""
+"""Choosing one sample of a file by its name."""
 
 from collections.abc import Sequence
 from typing import TypeVar

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hylios.errors import require_range
+from hylios.errors import InputError, require_range
 from hylios.readers.quantities import Quantity
 from hylios.readers.table import read_table
 from hylios.tanning import LARGEST_DOSE, LONGEST_HOURS, Exposures, MelaninDynamics, states_at
@@ -123,7 +123,13 @@ def read_schedule(path: Path) -> Exposures:
         of range.
     """
     table = read_table(path, [Quantity(name) for name in COLUMNS])
-    table.require_range("hour", 0.0, LONGEST_HOURS)
+    hours = table.require_range("hour", 0.0, LONGEST_HOURS)
+    parts = np.flatnonzero(hours != np.floor(hours))
+    if parts.size:
+        line, hour = table.lines[parts[0]], hours[parts[0]]
+        raise InputError(
+            f"{table.name} has an hour of {hour:g} in line {line}; allowed are whole hours."
+        )
     for name in COLUMNS[1:]:
         table.require_range(name, 0.0, LARGEST_DOSE)
     return Exposures(*(table.numbers[name] for name in COLUMNS))

@@ -45,7 +45,6 @@ def add_to(commands) -> None:
     )
     parser.add_argument(
         "--column",
-        default="total",
         help="column of --spectrum that holds reflectance, or sample of a CGATS or CxF file",
     )
     parser.add_argument(
@@ -80,9 +79,8 @@ def run(arguments: argparse.Namespace) -> None:
             wavelengths = _wavelengths(arguments.wavelengths, measured.wavelengths)
             reflectance = np.interp(wavelengths, measured.wavelengths, measured.reflectance)
             result = fit_spectrum(start, wavelengths, reflectance, **light, advance=advance)
-            target = (
-                f"{measured.name}, {shown(arguments.column)}, at {wavelengths.size} wavelengths"
-            )
+            column = shown(arguments.column or "total")
+            target = f"{measured.name}, {column}, at {wavelengths.size} wavelengths"
             error = f"root mean square error {result.rmse:.4f}"
     note_estimates(model, wavelengths)
     fitted = replace(result.specimen, name=f"{start.name} fitted")

@@ -1,10 +1,11 @@
 """What columns hold, by the names and units that people and instruments give them."""
 
 import re
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 
 
 @dataclass(frozen=True)
@@ -22,12 +23,18 @@ class Quantity:
         in `named` spells them; "" is for names without one.
     is_text : bool
         Whether its cells are text and not numbers.
+    others : tuple of str
+        In small letters, parts of words for what it may be mistaken for.
+    is_exact : bool
+        Whether a title that is its name goes before all others.
     """
 
     name: str
     aliases: tuple[str, ...] = ()
     units: Mapping[str, tuple[float, float]] = field(default_factory=lambda: {"": (1.0, 1.0)})
     is_text: bool = False
+    others: tuple[str, ...] = ()
+    is_exact: bool = False
 
 
 SHARE = {"": (1.0, 1.0), "%": (1.0, 100.0)}
@@ -38,7 +45,10 @@ WAVELENGTH = Quantity(
     {"": (1.0, 1.0), "nm": (1.0, 1.0), "um": (1000.0, 1.0), "å": (1.0, 10.0)},
 )
 REFLECTANCE = Quantity(
-    "total", ("total", "reflectance", "reflect", "refl", "r", "reflexionsgrad"), SHARE
+    "total",
+    ("total", "reflectance", "reflect", "refl", "r", "reflexionsgrad"),
+    SHARE,
+    others=("absorb", "extin", "transmi", "radian", "counts", "log(", "log 1", "wavenumber"),
 )
 STANDARD_ERROR = Quantity("standard_error", ("standard_error", "standard error"), SHARE)
 IRRADIANCE = Quantity(
@@ -51,9 +61,17 @@ IRRADIANCE = Quantity(
         "mw/cm2/nm": (10.0, 1.0),
         "w/cm2/nm": (10000.0, 1.0),
     },
+    others=("absorb", "transmi", "reflect", "radian", "counts", "mw", "uw", "µw", "wavenumber"),
 )
-TRANSMITTANCE = Quantity("transmittance", ("transmittance", "transmission", "t"), SHARE)
-ABSORBANCE = Quantity("absorbance", ("absorbance", "abs"))
+TRANSMITTANCE = Quantity(
+    "transmittance",
+    ("transmittance", "transmission", "t"),
+    SHARE,
+    others=("absorb", "extin", "optical den", "reflect", "radian", "counts", "wavenumber"),
+)
+ABSORBANCE = Quantity(
+    "absorbance", ("absorbance", "abs"), {"": (1.0, 1.0), "au": (1.0, 1.0), "mau": (1.0, 1000.0)}
+)
 
 SPELLINGS = {
     "percent": "%",
@@ -76,13 +94,15 @@ SPELLINGS = {
 """Other spellings of units, in small letters."""
 
 KNOWN_UNITS = {
-    spelled for quantity in (WAVELENGTH, REFLECTANCE, IRRADIANCE) for spelled in quantity.units
+    spelled
+    for quantity in (WAVELENGTH, REFLECTANCE, IRRADIANCE, ABSORBANCE)
+    for spelled in quantity.units
 } - {""}
 
 
 def named(title: str) -> tuple[str, str]:
     """Name and unit of a column's title such as `Wavelength [nm]`, `%R` or `total_percent`."""
-    text = title.strip().casefold()
+    text = unicodedata.normalize("NFC", title).strip()
     bracketed = re.fullmatch(r"(.*?)\s*[(\[](.*)[)\]]", text)
     if bracketed:
         return _plain(bracketed[1]), unit(bracketed[2])
@@ -91,15 +111,22 @@ def named(title: str) -> tuple[str, str]:
         return _plain(name), unit(rest)
     if "%" in text:
         return _plain(text.replace("%", " ")), "%"
-    name, separator, last = text.rpartition("_")
-    if separator and unit(last) in KNOWN_UNITS:
-        return _plain(name), unit(last)
+    for mark in "_ ":
+        name, separator, last = text.rpartition(mark)
+        if separator and unit(last) in KNOWN_UNITS:
+            return _plain(name), unit(last)
     return _plain(text), ""
 
 
 def unit(text: str) -> str:
-    """A unit as `Quantity.units` spells it: `W m^-2 nm^-1` is `w/m2/nm`."""
-    text = text.strip().casefold().replace("µ", "u").replace("μ", "u")
+    """A unit as `Quantity.units` spells it: `W m^-2 nm^-1` is `w/m2/nm`.
+
+    Megawatts are left as they are: in small letters they would be milliwatts.
+    """
+    text = unicodedata.normalize("NFC", text).strip()
+    if text.startswith("MW"):
+        return text
+    text = text.casefold().replace("µ", "u").replace("μ", "u")
     text = text.replace("²", "2").replace("⁻¹", "-1").replace("⁻2", "-2")
     text = re.sub(r"[\s·*.]*([a-z]+)\^?-(\d)", lambda part: f"/{part[1]}{part[2]}", text)
     text = re.sub(r"[\s^·*]", "", text).replace("nm1", "nm")
@@ -108,34 +135,40 @@ def unit(text: str) -> str:
 
 
 def _plain(text: str) -> str:
-    return text.strip(" .,:_")
+    return text.casefold().strip(" .,:_")
 
 
 def place(titles: tuple[str, ...], quantity: Quantity) -> tuple[int, str] | None:
     """Where a quantity's column is among some titles, and in what unit; None if nowhere.
 
-    A title that is the quantity's own name goes before all others.
+    A title that is the quantity's own name, in whatever letters, is in its own unit.
 
     Raises
     ------
     InputError
-        If there are two such columns, or the unit is none of the quantity's.
+        If there are two such columns, one may be a colour's red, or the unit is none of the
+        quantity's.
     """
-    own = [number for number, title in enumerate(titles) if title.strip() == quantity.name]
-    if own:
-        matches, units = own, [next(iter(quantity.units))]
-    else:
-        split = [named(title) for title in titles]
-        matches = [number for number, (name, _) in enumerate(split) if name in quantity.aliases]
-        units = [split[number][1] for number in matches]
+    plain = [title.strip() for title in titles]
+    split = [named(title) for title in titles]
+    own = [number for number, title in enumerate(plain) if title == quantity.name]
+    if quantity.is_exact and len(own) == 1:
+        return own[0], next(iter(quantity.units))
+    own = [n for n, title in enumerate(plain) if title.casefold() == quantity.name.casefold()]
+    matches = [n for n, (name, _) in enumerate(split) if n in own or name in quantity.aliases]
     if not matches:
         return None
     if len(matches) > 1:
-        twice = " and ".join(repr(titles[number].strip()) for number in matches[:2])
+        twice = " and ".join(repr(shown(plain[number])) for number in matches[:2])
         raise InputError(f"the column {quantity.name} is there twice, as {twice}")
-    if units[0] not in quantity.units:
+    match = matches[0]
+    names = {name for name, _ in split}
+    if split[match][0] == "r" != quantity.name.casefold() and {"g", "b"} <= names:
+        raise InputError(f"the column {plain[match]!r} is beside G and B; it may be a colour's red")
+    its_unit = next(iter(quantity.units)) if own else split[match][1]
+    if its_unit not in quantity.units:
         raise InputError(
-            f"the column {titles[matches[0]].strip()!r} is in {units[0] or 'no unit'}; allowed is "
+            f"the column {shown(plain[match])!r} is in {its_unit or 'no unit'}; allowed is "
             + ", ".join(f"{spelled or 'none'}" for spelled in quantity.units)
         )
-    return matches[0], units[0]
+    return match, its_unit

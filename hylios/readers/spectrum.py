@@ -25,6 +25,9 @@ from hylios.readers.text import STANDARD_INPUT, lines_of, name_of
 SHORTEST_NM, LONGEST_NM = 100.0, 1e5
 """Wavelengths that may be meant: micrometres lie below."""
 
+LARGEST_IRRADIANCE = 1e12
+"""In W/m^2/nm, far beyond any lamp."""
+
 LARGEST_ERROR = 0.5
 """Standard deviation that numbers from 0 to 1 can have at most."""
 
@@ -75,30 +78,35 @@ def read_spectra(paths: Sequence[Path]) -> list[NamedSpectrum]:
     ]
 
 
-def read_spectrum(path: Path, column: str = REFLECTANCE.name) -> NamedSpectrum:
+def read_spectrum(path: Path, column: str | None = None) -> NamedSpectrum:
     """Read a spectrum from a table of text in whatever layout `hylios.readers` knows.
 
-    Needed are columns of wavelengths and of reflectance, `wavelength_nm` and `column` or as
+    Needed are columns of wavelengths and of reflectance, `wavelength_nm` and `total` or as
     instruments call them; `standard_error` is read where there is one. Two columns of numbers
     without a header will do as well. The path `-` is standard input. The spectrum is named as the
     file without its ending.
 
     Parameters
     ----------
-    column : str
-        That holds the reflectance; of a CGATS or CxF file the sample.
+    column : str, optional
+        Title of the one that holds the reflectance, where others may too; of a CGATS or CxF file
+        the sample.
 
     Raises
     ------
     InputError
         If the file cannot be read or is no spectrum.
     """
-    named = column == REFLECTANCE.name
-    reflectance = REFLECTANCE if named else Quantity(column, (column.casefold(),), SHARE)
+    reflectance, sample = REFLECTANCE, None
+    if column == REFLECTANCE.name:
+        reflectance = replace(REFLECTANCE, is_exact=True)
+    elif column is not None:
+        reflectance = Quantity(column, (column.casefold(),), SHARE, is_exact=True)
+        sample = column
     lines, name = lines_of(path), name_of(path)
     of_samples = next((read for fits, read in OF_SAMPLES if fits(lines)), None)
     if of_samples is not None:
-        table = of_samples(lines, name, None if named else column)
+        table = of_samples(lines, name, sample)
         reflectance = REFLECTANCE
     else:
         table = table_of(
@@ -120,11 +128,13 @@ def read_irradiance(path: Path) -> tuple[np.ndarray, np.ndarray]:
     Raises
     ------
     InputError
-        If the file cannot be read or has no such columns, or an irradiance is negative.
+        If the file cannot be read or has no such columns, or an irradiance is negative or
+        above `LARGEST_IRRADIANCE`.
     """
     columns = (WAVELENGTH, IRRADIANCE)
     table = _by_wavelength(read_table(path, columns, as_pair=columns))
-    return table.numbers[WAVELENGTH.name], table.numbers[IRRADIANCE.name]
+    irradiance = table.require_range(IRRADIANCE.name, 0.0, LARGEST_IRRADIANCE, " W/m^2/nm")
+    return table.numbers[WAVELENGTH.name], irradiance
 
 
 def read_transmittance(path: Path) -> tuple[np.ndarray, np.ndarray]:

@@ -10,7 +10,7 @@ import numpy as np
 from hylios.errors import InputError, shown
 from hylios.readers.instruments import without_instruments_words
 from hylios.readers.layout import NOT_FINITE, NUMBER, SEPARATORS, Layout, NoHeaderError, laid_out
-from hylios.readers.quantities import Quantity, place
+from hylios.readers.quantities import SHARE, STANDARD_ERROR, WAVELENGTH, Quantity, place
 from hylios.readers.text import lines_of, name_of
 
 THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
@@ -184,9 +184,47 @@ def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Tab
     for title, column in cells.items():
         times, over = factors[title]
         values = np.array([_number(title, line, cell, mark) for line, cell in column], dtype=float)
-        numbers[title] = values * times / over
+        with np.errstate(over="ignore"):
+            numbers[title] = values * times / over
+        beyond = np.flatnonzero(~np.isfinite(numbers[title]))
+        if beyond.size:
+            line, cell = column[beyond[0]]
+            raise InputError(f"{title} in line {line} is {cell[:60]}; allowed are finite numbers")
+    if WAVELENGTH in quantities and layout.has_header:
+        _require_no_parted_decimals(layout, quantities)
     lines = np.array([row.line for row in layout.rows], dtype=int)
     return Table(name, numbers, texts, lines, layout.has_header)
+
+
+def _require_no_parted_decimals(layout: Layout, quantities: Sequence[Quantity]) -> None:
+    """Raise InputError where a comma between cells may be the decimal one of a number.
+
+    400,0,21 may be 400 and 0.21. So may it where wavelengths, shares of 0 or 1 and what stands
+    behind them are whole numbers in all rows, and what is behind is not 0 throughout.
+    """
+    if layout.separator != "," or not layout.rows:
+        return
+    for quantity in quantities:
+        position = place(layout.titles, quantity)
+        if quantity.units is not SHARE or quantity is STANDARD_ERROR or position is None:
+            continue
+        behind = position[0] + 1
+        wavelength = place(layout.titles, WAVELENGTH)
+        if wavelength is None or behind in (len(layout.titles), wavelength[0]):
+            continue
+        rows = [row.cells for row in layout.rows]
+        whole = all(
+            cells[wavelength[0]].isdecimal()
+            and cells[behind - 1] in ("0", "1")
+            and cells[behind].isdecimal()
+            for cells in rows
+        )
+        if whole and any(cell.strip("0") for cells in rows for cell in cells[behind:]):
+            line = layout.rows[0].line
+            raise InputError(
+                f"line {line} may be numbers with a decimal comma or with none; write numbers "
+                "with a point, or part cells by semicolons"
+            )
 
 
 def _decimal_mark(cells: Sequence[tuple[int, str]]) -> str:

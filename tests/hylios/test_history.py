@@ -74,7 +74,7 @@ def test_a_schedule_without_sun_and_one_from_a_spreadsheet(tmp_path):
         ("0,6\n", "line 2"),
         ("0,6,5\n30,-1,0\n", "melanogenesis_sed of -1 in line 3; allowed is 0 to 1e\\+12"),
         ("-1,6,5\n", "hour of -1 in line 2; allowed is 0 to 878400"),
-        ("0.5,6,5\n", "an hour of exposure is 0.5; allowed are whole hours"),
+        ("0.5,6,5\n", "has an hour of 0.5 in line 2; allowed are whole hours"),
         ("0,6,nan\n", "thickening_sed in line 2 is nan"),
     ],
 )
@@ -97,3 +97,10 @@ def test_days_out_of_range(day):
     with pytest.raises(InputError, match=f"days of the scene is {day:.4g}; allowed is 0 to 366"):
         require_last_day(day)
     assert require_last_day(LAST_DAY_LIMIT) == 366.0
+
+
+def test_a_part_of_an_hour_names_file_and_line(tmp_path):
+    path = tmp_path / "doses.csv"
+    path.write_text("Hour,melanogenesis_sed,thickening_sed\n0,1,2\n24.5,1,2\n")
+    with pytest.raises(InputError, match="doses.csv has an hour of 24.5 in line 3; allowed are"):
+        read_schedule(path)

@@ -109,7 +109,11 @@ Number of Pixels in Processed Spectrum: 2
         "Sample1,\nWavelength (nm),%R,\n500.0,50.0,\n400.0,25.0,\n",
         "wavelength (um),reflectance\n0.4,0.25\n0.5,0.5\n",
         "wavelength (angstrom),reflectance\n4000,0.25\n5000,0.5\n",
-        "total,Reflectance (%),wavelength_nm\n0.25,7,400\n0.5,7,500\n",
+        "# wavelength_nm,total_percent\n400,25\n500,50\n",
+        "# wavelength,total\n# nm,%\n# of an arm\n400,25\n500,50\n",
+        "# of an arm\n400,0.25\n500,0.5\n",
+        "Wavelength (A\u030a),Reflectance\n4000,0.25\n5000,0.5\n",
+        "Wavelength [nm],R\n[nm],[%]\n400,25\n500,50\n",
         SVC,
         ASD,
         SED,
@@ -174,7 +178,9 @@ def test_a_file_that_is_no_spectrum_is_refused(file, text, sentence):
 def test_decimal_commas_cannot_pass_for_a_standard_error(file):
     """400,0,2133 below three titles is .2133; read as it stands it would be black."""
     rows = "".join(f"{400 + 10 * step},0,{2000 + 133 * step}\n" for step in range(9))
-    with pytest.raises(InputError, match="has a standard_error of 2000 in line 2; allowed is 0 to"):
+    with pytest.raises(
+        InputError, match="line 2 may be numbers with a decimal comma or with none; write"
+    ):
         read_spectrum(file("wavelength_nm,total,standard_error\n" + rows))
 
 
@@ -243,3 +249,100 @@ def test_two_columns_of_an_absorber(file):
         assert (wavelengths.tolist(), values.tolist()) == ([400.0, 500.0], [5.0, 7.0])
     with pytest.raises(InputError, match=r"has a value of 1e\+308 in line 1; allowed is 0 to 1e"):
         read_values(file("400,1e308\n"), "keratin", 0.0, 1e9)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        "lam,absorbance\n",
+        "# lam,absorbance\n",
+        "Lambda (nm);A\n",
+        "wavenumber,absorbance\n(1/cm),(AU)\n",
+        "lam,absorbance\n---,---\n",
+        "lam nm absorbance\n",
+        "# absorbance of a film\n",
+        "# lam,absorbance\n# of a film\n",
+    ],
+)
+def test_numbers_below_titles_of_something_else_are_not_taken(file, head):
+    path = file(head + "300,0.5\n310,0.1\n")
+    for read in (read_transmittance, read_spectrum):
+        with pytest.raises(
+            InputError, match="line 1 (has the t|says)|it has no column|line 2 has 1"
+        ):
+            read(path)
+
+
+def test_what_is_understood_is_told_with_the_line(file):
+    with pytest.raises(InputError) as caught:
+        read_transmittance(file("\nlam,absorbance\n300,0.5\n"))
+    assert "line 2 has the titles 'lam', 'absorbance'; understood are wavelength_nm (" in str(
+        caught.value
+    )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "# wavelength_nm,absorbance\n300,2\n310,1\n",
+        "# wavelength absorbance\n300 2\n310 1\n",
+        "Wavelength,Absorbance\n(nm),(AU)\n300,2\n310,1\n",
+        "Wavelength nm,Absorbance (mAU)\n300,2000\n310,1000\n",
+    ],
+)
+def test_an_absorbance_is_read_as_one(file, text):
+    assert read_transmittance(file(text))[1] == pytest.approx([0.01, 0.1], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "wavelength_nm,total,x\n400,1,0\n500,0,3\n",
+        "wavelength_nm,total,standard_error,n\n400,0,0,2\n500,0,0,3\n",
+        "wavelength_nm,transmittance,x\n400,0,25\n500,0,31\n",
+    ],
+)
+def test_commas_that_may_be_decimal_ones_are_refused(file, text):
+    read = read_transmittance if "transmittance" in text else read_spectrum
+    with pytest.raises(InputError, match="line 2 may be numbers with a decimal comma or with none"):
+        read(file(text))
+    assert read_spectrum(file("wavelength_nm,total\n400,1\n")).reflectance.tolist() == [1.0]
+    zeros = "wavelength_nm,total,standard_error\n400,0,0\n"
+    assert read_spectrum(file(zeros)).reflectance.tolist() == [0.0]
+    with pytest.raises(InputError, match="line 2 has 3 cells and the header has 2"):
+        read_spectrum(file("wavelength_nm,total,\n400,0,2\n"))
+
+
+@pytest.mark.parametrize(
+    ("titles", "sentence"),
+    [
+        ("wavelength_nm,total,Total", "is there twice, as 'total' and 'Total'"),
+        ("wavelength_nm,reflectance,total", "is there twice, as 'reflectance' and 'total'"),
+        ("wavelength (um),total,wavelength_nm", "as 'wavelength (um)' and 'wavelength_nm'"),
+        ("Wavelength,R,G,B", "the column 'R' is beside G and B"),
+    ],
+)
+def test_of_two_columns_that_serve_none_is_taken(file, titles, sentence):
+    path = file(f"{titles}\n400,0.25,0.5,0.1\n"[: None if titles.count(",") > 2 else -5] + "\n")
+    with pytest.raises(InputError, match=sentence.replace("(", r"\(").replace(")", r"\)")):
+        read_spectrum(path)
+    if "wavelength_nm," in titles:
+        assert read_spectrum(path, "total").reflectance[0] in (0.25, 0.5)
+        other = next(title for title in titles.split(",")[1:] if title != "total")
+        assert read_spectrum(path, other).reflectance != read_spectrum(path, "total").reflectance
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("nm,irradiance_w_m2_nm\n300,-1\n", "has a irradiance_w_m2_nm of -1 in line 2; allowed"),
+        ("nm,Irradiance (W/cm2/nm)\n300,1e308\n", "in line 2 is 1e308; allowed are finite numb"),
+        ("nm,Irradiance (MW/m2/nm)\n300,1\n", "is in MW/m2/nm; allowed is w/m2/nm"),
+        ("Wavelength [um],Irradiance\nnm,uW/cm2/nm\n300,1\n", "line 2 has the unit 'nm' below"),
+        ("Lambda nm,Irrad mW\n300,1\n", "it has no column irradiance_w_m2_nm"),
+    ],
+)
+def test_a_lamp_that_is_not_understood_is_refused(file, text, sentence):
+    with pytest.raises(InputError) as caught:
+        read_irradiance(file(text))
+    assert sentence in str(caught.value)

@@ -96,6 +96,11 @@ def table(lines: str, needed=PAIR, **more) -> Table:
         "Made by X\nof day 1, at noon\nhour,first_sed,remark\n1,0.5,a\n2,0.25,",
         "Made by X\n>>>>>Begin Data<<<<<\n1\t0.5\n2\t0.25\n>>>>>End Data<<<<<\nmore",
         "hour,first_sed\n+1,.5\n2.0,25e-2",
+        "Hour,First_SED\n1,.5\n2.0,.25",
+        "# hour,first_sed\n1,.5\n2.0,.25",
+        "# first_sed hour\n.5 1\n.25 2",
+        "BEGIN_DATA\n1,.5\n2.0,.25\nEND_DATA\nmore",
+        "hour,first_sed\n1,.5\n2.0,.25\nEND_DATA\n",
     ],
 )
 def test_layouts_that_mean_one_thing_are_read(lines):
@@ -124,7 +129,9 @@ def test_layouts_that_mean_one_thing_are_read(lines):
         ("hour;first_sed\n1;2,5\n2;3.5", "line 2 has the number '2,5' and line 3 '3.5'; allowed"),
         ("hour;first_sed\n1;1.234,5", "expected a number"),
         ('hour,first_sed\n1,"1,234"', "whose comma may mark decimals or thousands"),
-        ('hour,first_sed\n1,"2', "unexpected end of data"),
+        ('hour,first_sed\n1,"2', "line 2 has a quote that does not end"),
+        ("1,2\n3,4,5", "line 2 has 3 cells and line 1 has 2"),
+        ("hour,first_sed\n1,2\nEND_DATA\n3,4", "line 3 has 1 cells and the header has 2"),
         ("hour,first_sed\n1,2" + 131_073 * "1", "line 2: field larger than field limit"),
         ("1,0.2O\n2,0.21", "line 1 is neither a header nor a row of numbers"),
         ("1,5\nhour,first_sed\n2,6", "line 1 is neither a header nor a row of numbers"),

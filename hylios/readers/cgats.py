@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, shown
 from hylios.readers.layout import finite_number
 from hylios.readers.quantities import REFLECTANCE, WAVELENGTH
 from hylios.readers.samples import the_sample
@@ -23,6 +23,9 @@ FIELD = re.compile(
     re.IGNORECASE,
 )
 SAMPLE_NAMES = ("SAMPLE_NAME", "SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC")
+TYPES = ("MEAS_TYPE", "SPECT_TYPE", "MEASUREMENT_TYPE")
+"""Keywords that say what was measured."""
+
 PAIRED = {"SPECTRAL_PCT": 100.0, "SPECTRAL_DEC": 1.0}
 
 
@@ -54,6 +57,8 @@ def cgats_table(lines: Sequence[str], name: str, sample: str | None = None) -> T
         If there is no such sample, it has no spectrum, or the file is not as it should be.
     """
     try:
+        lines = _first_table(lines)
+        _require_reflectance(lines)
         fields = tuple(_words(lines, "BEGIN_DATA_FORMAT", "END_DATA_FORMAT"))
         row = _row(fields, _samples(lines, len(fields)), sample)
         wavelengths, values = _spectrum(fields, row, _norm(lines))
@@ -61,6 +66,32 @@ def cgats_table(lines: Sequence[str], name: str, sample: str | None = None) -> T
         raise InputError(f"{name} cannot be read: {error}.") from error
     numbers = {WAVELENGTH.name: wavelengths, REFLECTANCE.name: values}
     return Table(name, numbers, {}, np.full(wavelengths.size, row.line))
+
+
+def _first_table(lines: Sequence[str]) -> Sequence[str]:
+    """Lines up to where the first table's data end; InputError where another has spectra too."""
+    marks = [line.strip().upper() for line in lines]
+    if "END_DATA" not in marks:
+        return lines
+    end = marks.index("END_DATA") + 1
+    for number, mark in enumerate(marks[end:], start=end + 1):
+        if any(FIELD.fullmatch(word) or word in PAIRED for word in TOKEN.findall(mark)):
+            raise InputError(f"line {number} begins a second table of spectra; allowed is one")
+    return lines[:end]
+
+
+def _require_reflectance(lines: Sequence[str]) -> None:
+    """Raise InputError where a keyword says that something else was measured."""
+    for number, line in enumerate(lines, start=1):
+        words = [word.strip('"') for word in TOKEN.findall(line)]
+        if len(words) < 2:
+            continue
+        said = " ".join(words[1:])
+        is_other = words[0].upper() in TYPES and "REFLECT" not in said.upper()
+        if is_other or (words[0].upper() == "DEVICE_CLASS" and said.upper() == "DISPLAY"):
+            raise InputError(
+                f"line {number} has {words[0]} {shown(said[:40])!r}; allowed is reflectance"
+            )
 
 
 def _between(lines: Sequence[str], begin: str, end: str) -> list[tuple[int, str]]:

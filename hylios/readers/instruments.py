@@ -23,6 +23,10 @@ SEAMS = ((900.0, 1100.0), (1700.0, 2000.0))
 
 ASD_MARK = "Text conversion of header file"
 ASD_TITLES = "wavelength_nm\treflectance"
+ASD_OTHERS = re.compile(r"log\s*\(?1|1/r|derivative|radiance|transmittance|absorb", re.IGNORECASE)
+"""What titles of an ASD's columns say that hold something else than reflectance."""
+
+JCAMP = re.compile(r"\s*##\s*(JCAMP.?DX|[XY]UNITS)\s*=", re.IGNORECASE)
 
 
 def without_instruments_words(lines: Sequence[str]) -> tuple[Sequence[str], tuple[str, ...]]:
@@ -33,9 +37,12 @@ def without_instruments_words(lines: Sequence[str]) -> tuple[Sequence[str], tupl
     Raises
     ------
     InputError
-        If an ASD's file says that it holds something else than reflectance, or if an SVC's has no
-        data.
+        If a file is JCAMP-DX's, if an ASD's does not say that it holds reflectance, or if an
+        SVC's has no data.
     """
+    for number, line in enumerate(lines, start=1):
+        if JCAMP.match(line):
+            raise InputError(f"line {number} is JCAMP-DX's, which is not read; export a table")
     head = [line.strip() for line in lines[:3]]
     if any(line.startswith(SVC_MARK) for line in head):
         return _of_svc(lines)
@@ -88,12 +95,22 @@ def _first_number(row: str) -> float | None:
 
 
 def _of_asd(lines: Sequence[str]) -> list[str]:
+    says_reflectance = False
     for number, line in enumerate(lines):
-        if "spectrum file is" in line.casefold() and "reflectance" not in line.casefold():
+        is_header = re.match(r"wavelength[\t ,;]", line, re.IGNORECASE)
+        says = "spectrum file is" in line.casefold()
+        says_other = says and "reflectance" not in line.casefold()
+        if says_other or ((says or is_header) and ASD_OTHERS.search(line)):
             raise InputError(
                 f"line {number + 1} says {shown(line.strip()[:60])!r}; allowed is reflectance data"
             )
-        if re.match(r"wavelength[\t ,;]", line, re.IGNORECASE):
+        says_reflectance |= says
+        if is_header:
+            if not says_reflectance:
+                raise InputError(
+                    "it is a spectrum of ASD that does not say of what; needed is a line "
+                    "'Spectrum file is reflectance data'"
+                )
             separator = line[len("wavelength")]
             titles = ASD_TITLES.replace("\t", separator)
             return [*["#"] * number, titles, *lines[number + 1 :]]

@@ -346,3 +346,48 @@ def test_a_lamp_that_is_not_understood_is_refused(file, text, sentence):
     with pytest.raises(InputError) as caught:
         read_irradiance(file(text))
     assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("##TITLE=x\n##JCAMP-DX=4.24\n##YUNITS=ABSORBANCE\n400, 0.5\n", "line 2 is JCAMP-DX's"),
+        ("##YUNITS=REFLECTANCE\n400 0.5\n", "line 1 is JCAMP-DX's, which is not read"),
+        (ASD.replace("Spectrum file is reflectance data", ""), "ASD that does not say of what"),
+        (ASD.replace("\tarm", "\tlog 1/R arm"), "log 1/R arm.asd.mn'; allowed is reflectance"),
+    ],
+)
+def test_an_instruments_file_of_something_else_is_refused(file, text, sentence):
+    for read in (read_spectrum, read_transmittance):
+        with pytest.raises(InputError) as caught:
+            read(file(text))
+        assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("keyword", "is_read"),
+    [
+        ('MEAS_TYPE "EMISSION"', False),
+        ('SPECT_TYPE "TRANSMISSIVE"', False),
+        ('MEASUREMENT_TYPE "TRANSMITTANCE"', False),
+        ('DEVICE_CLASS "DISPLAY"', False),
+        ('MEAS_TYPE "REFLECTIVE"', True),
+        ('KEYWORD "MEAS_TYPE"', True),
+    ],
+)
+def test_a_cgats_file_says_what_was_measured(file, keyword, is_read):
+    path = file(CGATS.format(norm=keyword, fields="nm400 nm500", values="0.25 0.5"))
+    if is_read:
+        assert read_spectrum(path).reflectance.tolist() == [0.25, 0.5]
+    else:
+        with pytest.raises(InputError, match="line 3 has .*; allowed is reflectance"):
+            read_spectrum(path)
+
+
+def test_a_second_tables_norm_is_not_the_firsts(file):
+    first = CGATS.format(norm="", fields="nm400", values="0.25")
+    second = CGATS.format(norm="SPECTRAL_NORM 100", fields="nm400", values="25")
+    with pytest.raises(InputError, match="line 15 begins a second table of spectra"):
+        read_spectrum(file(first + second))
+    tail = "SPECTRAL_NORM 100\n"
+    assert read_spectrum(file(first + tail)).reflectance.tolist() == [0.25]

@@ -13,14 +13,28 @@ HALF_WRITTEN = ".skin-tan-"
 """Beginning of a file's name while it is being written."""
 
 
-def regular_bytes(path: Path, most: int) -> bytes:
+def as_path(path: str | os.PathLike[str]) -> Path:
+    """A path from what names a file.
+
+    Raises
+    ------
+    InputError
+        If it is no path, or an empty text.
+    """
+    if not isinstance(path, str | os.PathLike) or not os.fspath(path):
+        raise InputError(f"a file is named {str(path)[:60]!r}; expected a path, as text or Path.")
+    return Path(path)
+
+
+def regular_bytes(path: str | os.PathLike[str], most: int) -> bytes:
     """What a regular file holds; a pipe or a device, which may never end, is refused.
 
     Raises
     ------
     InputError
-        If it is no regular file, has more bytes than `most`, or cannot be read.
+        If it is no path or no regular file, has more bytes than `most`, or cannot be read.
     """
+    path = as_path(path)
     name = shown(path)
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):

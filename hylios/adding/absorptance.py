@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from hylios.adding.spectrum import spectrum
-from hylios.skin.specimen import Specimen
+from hylios.skin.specimen import Specimen, require_specimen
 from hylios.sun.action_spectra import FIRST_NM, LAST_NM, Absorptance
 from hylios.tissue import Model
 
@@ -29,7 +29,7 @@ def tabulated(
     Raises
     ------
     InputError
-        If the specimen has no spectrum (`hylios.adding.spectrum.spectrum`).
+        If it is no specimen or has no spectrum (`hylios.adding.spectrum.spectrum`).
 
     Examples
     --------
@@ -38,7 +38,7 @@ def tabulated(
     >>> print(f"{absorptance.values[0]:.2f} at {absorptance.wavelengths[0]:.0f} nm")
     0.94 at 280 nm
     """
-    return _absorptance(specimen, model or Model())
+    return _absorptance(require_specimen(specimen), model or Model())
 
 
 @lru_cache(maxsize=64)

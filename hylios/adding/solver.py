@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.adding.optics import (
     Optics,
@@ -47,17 +48,17 @@ class Reflectance:
         inside, and that leaves below.
     """
 
-    surface: np.ndarray
-    subsurface: np.ndarray
-    transmittance: np.ndarray
+    surface: NDArray[np.float64]
+    subsurface: NDArray[np.float64]
+    transmittance: NDArray[np.float64]
 
     @property
-    def total(self) -> np.ndarray:
+    def total(self) -> NDArray[np.float64]:
         """Reflectance."""
         return self.surface + self.subsurface
 
     @property
-    def absorptance(self) -> np.ndarray:
+    def absorptance(self) -> NDArray[np.float64]:
         """Share of the light that is absorbed: the rest."""
         return 1.0 - self.total - self.transmittance
 

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.adding.solver import NODES, Reflectance, solve
 from hylios.skin.specimen import Specimen
@@ -21,10 +22,10 @@ class Spectrum(Reflectance):
         The other arrays are (W,) too, or (A, W) for several angles.
     """
 
-    wavelengths: np.ndarray
+    wavelengths: NDArray[np.float64]
 
     @property
-    def absorptance(self) -> np.ndarray:
+    def absorptance(self) -> NDArray[np.float64]:
         """Share of the light that is absorbed, also in the hypodermis: what is not reflected."""
         return 1.0 - self.total
 

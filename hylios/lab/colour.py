@@ -6,6 +6,7 @@ from functools import cache
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
@@ -34,7 +35,7 @@ def _observer_under_daylight() -> tuple[np.ndarray, np.ndarray]:
     return np.asarray(observer.wavelengths), weights / weights[1].sum()
 
 
-def xyz_weights(wavelengths: np.ndarray) -> np.ndarray:
+def xyz_weights(wavelengths: np.ndarray) -> NDArray[np.float64]:
     """Weights (3, W) that turn reflectance at the given wavelengths into XYZ under D65.
 
     Reflectance is taken as linear between the wavelengths and constant beyond them; a white
@@ -57,7 +58,7 @@ def _require_ascending(wavelengths: np.ndarray) -> None:
         raise InputError("wavelengths of a colour must be a list of ascending numbers, in nm.")
 
 
-def rec709_weights(wavelengths: np.ndarray) -> np.ndarray:
+def rec709_weights(wavelengths: np.ndarray) -> NDArray[np.float64]:
     """Weights (3, W) that turn reflectance into linear Rec.709 under D65."""
     matrix = np.asarray(colour.RGB_COLOURSPACES["ITU-R BT.709"].matrix_XYZ_to_RGB)
     weights = matrix @ xyz_weights(wavelengths)
@@ -65,7 +66,7 @@ def rec709_weights(wavelengths: np.ndarray) -> np.ndarray:
     return weights / weights.sum(axis=1, keepdims=True)
 
 
-def linear_rec709(wavelengths: np.ndarray, reflectance: np.ndarray) -> np.ndarray:
+def linear_rec709(wavelengths: np.ndarray, reflectance: np.ndarray) -> NDArray[np.float64]:
     """Linear Rec.709 (..., 3) of reflectance (..., W) under D65."""
     return np.asarray(reflectance) @ rec709_weights(wavelengths).T
 
@@ -80,19 +81,14 @@ def band_reflectance(wavelengths: np.ndarray, reflectance: np.ndarray, band: str
     """
     wavelengths = np.asarray(wavelengths, dtype=float)
     first, last = BANDS[band]
-    _require_ascending(wavelengths)
-    if wavelengths[0] > first or wavelengths[-1] < last:
-        raise InputError(
-            f"the spectrum spans {wavelengths[0]:g} to {wavelengths[-1]:g} nm; a swatch of the "
-            f"band {band} needs {first:g} to {last:g} nm."
-        )
+    _require_span(wavelengths, band, f"a swatch of the band {band}")
     between = wavelengths[(wavelengths > first) & (wavelengths < last)]
     grid = np.concatenate([[first], between, [last]])
     values = np.interp(grid, wavelengths, reflectance)
     return float(np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(grid)) / (last - first))
 
 
-def swatch(wavelengths: np.ndarray, reflectance: np.ndarray, band: str) -> np.ndarray:
+def swatch(wavelengths: np.ndarray, reflectance: np.ndarray, band: str) -> NDArray[np.float64]:
     """Linear Rec.709 (3,) of a swatch of a spectrum (W,) in one of `BANDS` (section 6.1.3).
 
     Visible: the colour under D65, of the reflectance in the band only, held beyond its ends.
@@ -111,36 +107,47 @@ def swatch(wavelengths: np.ndarray, reflectance: np.ndarray, band: str) -> np.nd
     return linear_rec709(grid, np.interp(grid, wavelengths, reflectance))
 
 
-def srgb(linear: np.ndarray) -> np.ndarray:
+def _require_span(wavelengths: np.ndarray, band: str, what: str) -> None:
+    """Raise InputError where wavelengths do not ascend or do not span one of `BANDS`."""
+    _require_ascending(wavelengths)
+    first, last = BANDS[band]
+    if wavelengths[0] > first or wavelengths[-1] < last:
+        raise InputError(
+            f"the spectrum spans {wavelengths[0]:g} to {wavelengths[-1]:g} nm; {what} needs "
+            f"{first:g} to {last:g} nm."
+        )
+
+
+def srgb(linear: np.ndarray) -> NDArray[np.float64]:
     """sRGB (..., 3), 0 to 1, of linear Rec.709; what lies outside is cut."""
-    return np.asarray(colour.models.eotf_inverse_sRGB(np.clip(linear, 0.0, 1.0)))
+    return np.asarray(colour.models.eotf_inverse_sRGB(np.clip(linear, 0.0, 1.0)), dtype=np.float64)
 
 
-def linear_of_srgb(encoded: np.ndarray) -> np.ndarray:
+def linear_of_srgb(encoded: np.ndarray) -> NDArray[np.float64]:
     """Linear Rec.709 (..., 3) of sRGB (..., 3), 0 to 1."""
-    return np.asarray(colour.models.eotf_sRGB(encoded))
+    return np.asarray(colour.models.eotf_sRGB(encoded), dtype=np.float64)
 
 
-def lab(linear: np.ndarray) -> np.ndarray:
+def lab(linear: np.ndarray) -> NDArray[np.float64]:
     """CIE L*a*b* (..., 3) under D65 of linear Rec.709."""
     space = colour.RGB_COLOURSPACES["ITU-R BT.709"]
     xyz = np.asarray(linear) @ np.asarray(space.matrix_RGB_to_XYZ).T
-    return np.asarray(colour.XYZ_to_Lab(xyz, np.asarray(space.whitepoint)))
+    return np.asarray(colour.XYZ_to_Lab(xyz, np.asarray(space.whitepoint)), dtype=np.float64)
 
 
-def difference(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def difference(first: np.ndarray, second: np.ndarray) -> NDArray[np.float64]:
     """CIEDE2000 (...) between two arrays of linear Rec.709 (..., 3)."""
-    return np.asarray(colour.delta_E(lab(first), lab(second), method="CIE 2000"))
+    return np.asarray(colour.delta_E(lab(first), lab(second), method="CIE 2000"), dtype=np.float64)
 
 
 class Reflecting(Protocol):
     """What has a reflectance over wavelengths: a spectrum solved, walked or measured."""
 
     @property
-    def wavelengths(self) -> np.ndarray: ...
+    def wavelengths(self) -> NDArray[np.float64]: ...
 
     @property
-    def total(self) -> np.ndarray: ...
+    def total(self) -> NDArray[np.float64]: ...
 
 
 @dataclass(frozen=True)
@@ -165,7 +172,7 @@ class Colour:
     26 CIEDE2000 apart
     """
 
-    linear: np.ndarray
+    linear: NDArray[np.float64]
 
     @classmethod
     def of(cls, spectrum: Reflecting) -> "Colour":
@@ -174,26 +181,35 @@ class Colour:
         Parameters
         ----------
         spectrum
-            With `wavelengths` (W,) in nm, ascending, and `total` (..., W). Reflectance is taken as
-            linear between the wavelengths and constant beyond them.
+            With `wavelengths` (W,) in nm, ascending, from 400 or less to 700 or more, and `total`
+            (..., W). Reflectance is taken as linear between the wavelengths and constant beyond
+            them.
 
         Raises
         ------
         InputError
-            If the wavelengths do not ascend.
+            If that is no spectrum, or its wavelengths do not ascend or do not span 400 to 700 nm.
         """
-        return cls(linear_rec709(spectrum.wavelengths, spectrum.total))
+        try:
+            wavelengths, total = spectrum.wavelengths, spectrum.total
+        except AttributeError as error:
+            raise InputError(
+                f"the spectrum is {str(spectrum)[:60]!r}; expected one with wavelengths and total, "
+                "as hylios.solve_spectrum gives it."
+            ) from error
+        _require_span(wavelengths, "visible", "a colour")
+        return cls(linear_rec709(wavelengths, total))
 
     @property
-    def srgb(self) -> np.ndarray:
+    def srgb(self) -> NDArray[np.float64]:
         """sRGB (..., 3), 0 to 1; what lies outside is cut."""
         return srgb(self.linear)
 
     @property
-    def lab(self) -> np.ndarray:
+    def lab(self) -> NDArray[np.float64]:
         """CIE L*a*b* (..., 3)."""
         return lab(self.linear)
 
-    def difference(self, other: "Colour") -> np.ndarray:
+    def difference(self, other: "Colour") -> NDArray[np.float64]:
         """CIEDE2000 (...) to other colours."""
         return difference(self.linear, other.linear)

@@ -15,13 +15,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
 from hylios.adding import spectra
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, as_numbers, require_range
 from hylios.lab.free_parameters import USUAL, Unknowns, unknowns_of
 from hylios.quadrature import skin_quadrature
-from hylios.skin.specimen import Specimen
+from hylios.skin.specimen import Specimen, require_specimen
 from hylios.threads import one_thread
 from hylios.tissue import Model
 
@@ -114,8 +115,8 @@ class Fit:
 
     specimen: Specimen
     free: tuple[Free, ...]
-    observed: np.ndarray
-    residual: np.ndarray
+    observed: NDArray[np.float64]
+    residual: NDArray[np.float64]
     confounded: tuple[tuple[str, str, float], ...]
     evaluations: int
 
@@ -170,14 +171,14 @@ def fit(
     InputError
         If a name is unknown, named twice, or its parameters are all 0 at the start.
     """
-    unknowns = unknowns_of(start, tuple(free))
+    unknowns = unknowns_of(require_specimen(start), tuple(free))
 
-    def misfit(logarithms: np.ndarray) -> np.ndarray:
+    def misfit(logarithms: np.ndarray) -> NDArray[np.float64]:
         """(P, M + K) weighted residuals of (P, K) unknowns."""
         seen = observe([unknowns.specimen(row) for row in logarithms])
         return np.hstack([(seen - measured) / uncertainty, logarithms / unknowns.expected])
 
-    def slopes(logarithms: np.ndarray) -> np.ndarray:
+    def slopes(logarithms: np.ndarray) -> NDArray[np.float64]:
         inwards = np.where(logarithms + STEP > np.log(unknowns.high), -STEP, STEP)
         moved = misfit(np.vstack([logarithms, logarithms + np.diag(inwards)]))
         return ((moved[1:] - moved[0]) / inwards[:, None]).T
@@ -245,7 +246,7 @@ def _observed(
     angle: float,
     model: Model | None,
     advance: Advance,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Reflectance (S, W) of specimens, a part of the wavelengths after the other."""
     size = max(SOLVED_TOGETHER // len(specimens), 1)
     parts = []
@@ -258,8 +259,8 @@ def _observed(
 
 def fit_spectrum(
     start: Specimen,
-    wavelengths: np.ndarray,
-    reflectance: np.ndarray,
+    wavelengths: ArrayLike,
+    reflectance: ArrayLike,
     *,
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
@@ -294,24 +295,24 @@ def fit_spectrum(
     >>> print(f"misses by {fit.rmse:.3f}")
     misses by 0.003
     """
-    wavelengths = np.asarray(wavelengths, dtype=float)
-    reflectance = np.asarray(reflectance, dtype=float)
-    if wavelengths.ndim != 1 or not wavelengths.size or reflectance.shape != wavelengths.shape:
+    nm = as_numbers("wavelengths", wavelengths)
+    measured = as_numbers("reflectances", reflectance)
+    if nm.ndim != 1 or not nm.size or measured.shape != nm.shape:
         raise InputError(
-            f"wavelengths and reflectance have shapes {wavelengths.shape} and {reflectance.shape}; "
+            f"wavelengths and reflectance have shapes {nm.shape} and {measured.shape}; "
             "expected one row of equal length, not empty."
         )
-    _require_shares("a reflectance to fit", reflectance)
+    _require_shares("a reflectance to fit", measured)
 
-    def observe(specimens: Sequence[Specimen]) -> np.ndarray:
-        return _observed(specimens, wavelengths, angle, model, advance)
+    def observe(specimens: Sequence[Specimen]) -> NDArray[np.float64]:
+        return _observed(specimens, nm, angle, model, advance)
 
-    return fit(start, observe, reflectance, SPECTRAL_UNCERTAINTY, free)
+    return fit(start, observe, measured, SPECTRAL_UNCERTAINTY, free)
 
 
 def fit_colour(
     start: Specimen,
-    srgb: np.ndarray,
+    srgb: ArrayLike,
     *,
     free: Iterable[str] = USUAL,
     angle: float = 8.0,
@@ -339,16 +340,16 @@ def fit_colour(
     >>> fit.free[0].name, fit.free[0].determined
     ('melanin', True)
     """
-    srgb = np.asarray(srgb, dtype=float)
-    if srgb.shape != (3,):
-        raise InputError(f"a colour to fit has shape {srgb.shape}; expected (3,).")
-    _require_shares("a part of a colour to fit", srgb)
+    encoded = as_numbers("parts of a colour to fit", srgb)
+    if encoded.shape != (3,):
+        raise InputError(f"a colour to fit has shape {encoded.shape}; expected (3,).")
+    _require_shares("a part of a colour to fit", encoded)
     from hylios.lab.colour import lab, linear_of_srgb  # colour-science takes a second
 
     few = skin_quadrature(COLOUR_COUNT)
 
-    def observe(specimens: Sequence[Specimen]) -> np.ndarray:
+    def observe(specimens: Sequence[Specimen]) -> NDArray[np.float64]:
         seen = _observed(specimens, few.wavelengths, angle, model, advance)
         return lab(seen @ few.weights.T)
 
-    return fit(start, observe, lab(linear_of_srgb(srgb)), COLOUR_UNCERTAINTY, free)
+    return fit(start, observe, lab(linear_of_srgb(encoded)), COLOUR_UNCERTAINTY, free)

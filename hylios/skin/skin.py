@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
-from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, tanned
+from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, require_specimen, tanned
 from hylios.tanning import (
     PIGMENTATIONS,
     Exposures,
@@ -110,9 +110,10 @@ class Skin:
         Raises
         ------
         InputError
-            If a minimal dose is out of range, there is no such tanning set, or a change to it or
-            the untanned state cannot be used.
+            If that is no specimen, a minimal dose is out of range, there is no such tanning set, or
+            a change to it or the untanned state cannot be used.
         """
+        require_specimen(specimen)
         level = min(max(specimen.pigmentation, LEAST_PIGMENTATION), MOST_PIGMENTATION)
         pigmentation = pigmentation or USUAL_PIGMENTATION.get(specimen.name, "low")
         if pigmentation not in PIGMENTATIONS:
@@ -129,13 +130,13 @@ class Skin:
         )
 
     @property
-    def untanned_melanin(self) -> np.ndarray:
+    def untanned_melanin(self) -> NDArray[np.float64]:
         """Melanin of basale, spinosum, granulosum without sun, relative to their total (3,)."""
         steady = self.dynamics.steady_state()
         return steady / steady.sum()
 
     @property
-    def untanned_state(self) -> np.ndarray:
+    def untanned_state(self) -> NDArray[np.float64]:
         """The state without sun (4,): `untanned_melanin`, and thickness 1."""
         return np.append(self.untanned_melanin, 1.0)
 
@@ -159,7 +160,9 @@ class Skin:
         """Whether `at` cuts melanin in a state (4,) because it would overfill a layer."""
         return overfull(self.specimen, *_parts(state), self._kept)
 
-    def states(self, exposures: Exposures, times: ArrayLike, *, step: int = 1) -> np.ndarray:
+    def states(
+        self, exposures: Exposures, times: ArrayLike, *, step: int = 1
+    ) -> NDArray[np.float64]:
         """Tanning states (..., T, 4) after exposures, as `at` takes them, at times (T,) in hours.
 
         Parameters and errors as in `hylios.tanning.states_at`.

@@ -147,6 +147,27 @@ class Specimen:
         return float(self.melanin @ thickness / thickness.sum())
 
 
+def require_specimen(specimen: Specimen) -> Specimen:
+    """The specimen, if it is one and not its name or a skin that tans.
+
+    Raises
+    ------
+    InputError
+        If it is anything else.
+    """
+    if isinstance(specimen, Specimen):
+        return specimen
+    if isinstance(getattr(specimen, "specimen", None), Specimen):
+        raise InputError(
+            "the specimen is a skin, which looks different in every tanning state; "
+            "skin.at(state) is a specimen, without sun skin.at(skin.untanned_state)."
+        )
+    raise InputError(
+        f"the specimen is {str(specimen)[:60]!r}; expected a Specimen, such as "
+        'hylios.specimen("S3") or skin.at(state).'
+    )
+
+
 def parameters() -> list[Field]:
     """The numeric fields of `Specimen`, with unit, range and meaning in their metadata."""
     return [parameter for parameter in fields(Specimen) if parameter.metadata]

@@ -1,5 +1,6 @@
 """Specimens as TOML files: the fields of `hylios.skin.specimen.Specimen` by name, one to a line."""
 
+import os
 import tomllib
 from collections.abc import Iterable
 from dataclasses import asdict
@@ -7,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hylios.errors import InputError, shown
-from hylios.files import regular_bytes
+from hylios.files import as_path, regular_bytes
 from hylios.skin.phototypes import named_specimen
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import Specimen, parameters, specimen_of
@@ -19,7 +20,7 @@ LONGEST_LINE = 1000
 """Most characters of a line."""
 
 
-def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
+def read_specimen(path: str | os.PathLike[str], *, allow_unphysical: bool = False) -> Specimen:
     """Read a specimen from a TOML file.
 
     `base = "S3"` starts from a specimen that has a name (S1 to S4, I to VI), of which the file
@@ -33,10 +34,10 @@ def read_specimen(path: Path, *, allow_unphysical: bool = False) -> Specimen:
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> import hylios
-    >>> specimen = hylios.read_specimen(Path("mine.toml"))  # doctest: +SKIP
+    >>> specimen = hylios.read_specimen("mine.toml")  # doctest: +SKIP
     """
+    path = as_path(path)
     values = _values(path)
     try:
         start = {"name": path.stem}

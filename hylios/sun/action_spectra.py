@@ -9,7 +9,7 @@ melanogenesis is PROVISIONAL (`hylios.spectra`), and so is every melanogenesis d
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.spectra import Spectra, published_spectra
@@ -45,8 +45,8 @@ class Absorptance:
         If the wavelengths do not ascend from 280 to 400 nm, or a value is not 0 to 1.
     """
 
-    wavelengths: np.ndarray
-    values: np.ndarray
+    wavelengths: NDArray[np.float64]
+    values: NDArray[np.float64]
 
     def __post_init__(self):
         wavelengths, values = require_curve("absorptance", self.wavelengths, self.values)
@@ -58,7 +58,7 @@ class Absorptance:
         object.__setattr__(self, "wavelengths", wavelengths)
         object.__setattr__(self, "values", values)
 
-    def at(self, wavelengths: np.ndarray) -> np.ndarray:
+    def at(self, wavelengths: np.ndarray) -> NDArray[np.float64]:
         """Values at wavelengths in nm."""
         return np.interp(wavelengths, self.wavelengths, self.values)
 
@@ -94,7 +94,7 @@ def melanogenesis_dose(
     exposure: ArrayLike,
     absorptance: Absorptance,
     spectra: Spectra | None = None,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Dose in SED as it counts for melanin: 5.4 times the MMD. PROVISIONAL, as its action is.
 
     Parameters
@@ -125,7 +125,7 @@ def thickening_dose(
     exposure: ArrayLike,
     absorptance: Absorptance,
     spectra: Spectra | None = None,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Dose in SED as it counts for the thickness: 5.20 times the MED.
 
     Parameters, result and errors as in `melanogenesis_dose`.
@@ -135,7 +135,7 @@ def thickening_dose(
 
 def erythemal_dose(
     wavelengths: ArrayLike, exposure: ArrayLike, spectra: Spectra | None = None
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Dose in SED as meters show it (ISO/CIE 17166): without the skin's absorptance.
 
     Parameters, result and errors as in `melanogenesis_dose`.
@@ -146,7 +146,9 @@ def erythemal_dose(
 _ALIKE = Absorptance(np.array([FIRST_NM, LAST_NM]), np.ones(2))
 
 
-def action(name: str, wavelengths: np.ndarray, spectra: Spectra | None = None) -> np.ndarray:
+def action(
+    name: str, wavelengths: np.ndarray, spectra: Spectra | None = None
+) -> NDArray[np.float64]:
     """An action spectrum of `hylios.spectra` at wavelengths in nm.
 
     Between its own wavelengths its logarithm is linear, as CIE's erythema is; straight lines would
@@ -218,7 +220,7 @@ def effective_signal(
     exposure: ArrayLike,
     action: np.ndarray,
     absorptance: np.ndarray,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Melanogenesis or thickening signal of an exposure (5.3 or 5.19), in J/m^2.
 
     Parameters
@@ -250,7 +252,7 @@ def equivalent_dose(
     exposure: ArrayLike,
     action: np.ndarray,
     absorptance: np.ndarray,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Dose in SED of 298 nm light that gives the same signal: 5.4 or 5.20 times the minimal dose.
 
     Parameters and errors as in `effective_signal`; the wavelengths must enclose 298 nm.

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import date
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.spectra import Spectra
@@ -21,7 +21,7 @@ from hylios.sun.action_spectra import (
     resampled,
     thickening_dose,
 )
-from hylios.sun.position import sun
+from hylios.sun.position import require_day, sun
 from hylios.sun.protection import BARE, Protection
 from hylios.sun.sky import ClearSky, sunlight
 from hylios.tanning import Exposures
@@ -49,10 +49,10 @@ class Doses:
         As they count for melanin and for thickness.
     """
 
-    hours: np.ndarray
-    erythemal: np.ndarray
-    melanogenesis: np.ndarray
-    thickening: np.ndarray
+    hours: NDArray[np.float64]
+    erythemal: NDArray[np.float64]
+    melanogenesis: NDArray[np.float64]
+    thickening: NDArray[np.float64]
 
     def exposures(self) -> Exposures:
         """The doses as `hylios.tanning.simulate` takes them.
@@ -199,7 +199,7 @@ def of_sun(
         require_range("hour of sun", hour, 0.0, 24.0)
     if first >= last:
         raise InputError(f"sun is given from {first:g} to {last:g} h; the first must be less.")
-    start = start or day
+    start = require_day(start or require_day(day))
     if day < start:
         raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
     edges = np.unique([first, *np.arange(np.ceil(first), np.floor(last) + 1.0), last])
@@ -214,6 +214,11 @@ def of_sun(
 
 def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection, spectra) -> Doses:
     """Doses of radiant exposures (E, W), J/m^2/nm."""
+    if not isinstance(absorptance, Absorptance):
+        raise InputError(
+            f"the absorptance is {str(absorptance)[:60]!r}; expected a skin's, as "
+            "hylios.ultraviolet_absorptance(specimen) gives it."
+        )
     grid, light = resampled(wavelengths, exposure)
     received = light * protection.at(grid)
     return Doses(
@@ -224,7 +229,7 @@ def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection,
     )
 
 
-def _spread(hour: float, duration: float) -> tuple[np.ndarray, np.ndarray]:
+def _spread(hour: float, duration: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Hours of the model that a time from the beginning of one touches, and how much of each."""
     require_range("duration", duration, 0.0, LONGEST, "hours")
     passed = np.arange(max(1.0, np.ceil(duration)))

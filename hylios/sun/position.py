@@ -7,7 +7,7 @@ the sun by .5 degrees on the horizon and .02 degrees at 40 degrees.
 """
 
 from dataclasses import dataclass
-from datetime import date
+from datetime import date, datetime
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,6 +34,21 @@ class Sun:
     zenith: np.ndarray
     azimuth: np.ndarray
     distance: np.ndarray
+
+
+def require_day(day: date) -> date:
+    """The day, if it is a date without a time.
+
+    Raises
+    ------
+    InputError
+        If it is anything else.
+    """
+    if not isinstance(day, date) or isinstance(day, datetime):
+        raise InputError(
+            f"the day is {str(day)[:60]!r}; expected a datetime.date, such as date(2025, 6, 21)."
+        )
+    return day
 
 
 def sun(
@@ -63,7 +78,7 @@ def sun(
     InputError
         If one is out of range.
     """
-    require_range("year of the sun", day.year, FIRST_YEAR, LAST_YEAR)
+    require_range("year of the sun", require_day(day).year, FIRST_YEAR, LAST_YEAR)
     require_range("latitude", latitude, -90.0, 90.0, "degrees")
     hours = as_numbers("hours of the day", hours)
     if not np.all(np.isfinite(hours)):

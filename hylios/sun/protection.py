@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache, reduce
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, require_range
 from hylios.sun.action_spectra import FIRST_NM, LAST_NM, erythemal_dose, require_curve
@@ -34,15 +34,15 @@ class Protection:
         If the wavelengths do not ascend or a transmittance is out of range.
     """
 
-    wavelengths: np.ndarray
-    transmittance: np.ndarray
+    wavelengths: NDArray[np.float64]
+    transmittance: NDArray[np.float64]
 
     def __post_init__(self):
         curve = require_curve("transmittance", self.wavelengths, self.transmittance)
         object.__setattr__(self, "wavelengths", curve[0])
         object.__setattr__(self, "transmittance", curve[1])
 
-    def at(self, wavelengths: np.ndarray) -> np.ndarray:
+    def at(self, wavelengths: NDArray[np.float64]) -> NDArray[np.float64]:
         """Transmittance at wavelengths in nm."""
         return np.interp(wavelengths, self.wavelengths, self.transmittance)
 

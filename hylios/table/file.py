@@ -1,9 +1,9 @@
 """Reading a table's file."""
 
-from pathlib import Path
+import os
 
 from hylios.errors import InputError, shown
-from hylios.files import regular_bytes
+from hylios.files import as_path, regular_bytes
 from hylios.table.exr_reader import Picture, parse
 from hylios.table.schema import FORMAT
 from hylios.table.skin_table import SkinTable
@@ -13,7 +13,7 @@ LARGEST_FILE = 64 * 2**20
 """Most bytes of a file; the largest tables have a hundredth of that."""
 
 
-def read_table(path: Path) -> SkinTable:
+def read_table(path: str | os.PathLike[str]) -> SkinTable:
     """Read a table's EXR file.
 
     Raises
@@ -23,10 +23,10 @@ def read_table(path: Path) -> SkinTable:
 
     Examples
     --------
-    >>> from pathlib import Path
     >>> import hylios
-    >>> table = hylios.read_table(Path("skin.exr"))  # doctest: +SKIP
+    >>> table = hylios.read_table("skin.exr")  # doctest: +SKIP
     """
+    path = as_path(path)
     data = regular_bytes(path, LARGEST_FILE)
     try:
         return from_stored(_stored(parse(data)))

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from hylios.errors import InputError
+from hylios.errors import InputError, as_numbers
 from hylios.table.axes import StateAxes
 from hylios.table.interpolation import interpolate
 
@@ -29,21 +30,20 @@ class SkinTable:
     --------
     The colour of a tan, from a table instead of from the model:
 
-    >>> from pathlib import Path
     >>> import hylios
-    >>> table = hylios.read_table(Path("III.exr"))  # doctest: +SKIP
+    >>> table = hylios.read_table("III.exr")  # doctest: +SKIP
     >>> states = hylios.skin_type("III").states(hylios.Exposures([0], [30]), times=[0, 240])
     >>> table.plane("total_colour", states)  # doctest: +SKIP
     """
 
     axes: StateAxes
-    planes: Mapping[str, np.ndarray]
+    planes: Mapping[str, NDArray[np.float64]]
     provenance: dict[str, Any]
     interpolation: str = "linear"
 
     def lookup(
-        self, states: np.ndarray, names: Sequence[str] | None = None
-    ) -> dict[str, np.ndarray]:
+        self, states: ArrayLike, names: Sequence[str] | None = None
+    ) -> dict[str, NDArray[np.float64]]:
         """Planes by name, each (..., components), at tanning states (..., 4).
 
         All planes, unless some are named. Beyond the outermost knots their value is held.
@@ -57,7 +57,7 @@ class SkinTable:
         for name in wanted:
             if name not in self.planes:
                 raise InputError(f"the table has no plane {name}; it has {', '.join(self.planes)}.")
-        coordinates = self.axes.coordinates(states)
+        coordinates = self.axes.coordinates(as_numbers("tanning states", states))
         joined = np.concatenate([self.planes[name] for name in wanted], axis=-1)
         numbers = interpolate(
             self.interpolation,
@@ -68,7 +68,7 @@ class SkinTable:
         ends = np.cumsum([self.planes[name].shape[-1] for name in wanted])
         return dict(zip(wanted, np.split(numbers, ends[:-1], axis=-1), strict=True))
 
-    def holds(self, states: np.ndarray) -> np.ndarray:
+    def holds(self, states: ArrayLike) -> NDArray[np.bool_]:
         """Whether the table says something of tanning states (..., 4), bool (...).
 
         One for any sun does of all. One for a scene does where its plane `state`, looked up, gives
@@ -79,12 +79,13 @@ class SkinTable:
         InputError
             If a state has a number that is not above 0.
         """
+        numbers = as_numbers("tanning states", states)
         if "state" not in self.planes:
-            return np.ones(states.shape[:-1], bool)
-        nearest = self.plane("state", states)
-        apart = np.abs(nearest[..., :4] - np.log(states / self.axes.untanned)).max(axis=-1)
+            return np.ones(numbers.shape[:-1], bool)
+        nearest = self.plane("state", numbers)
+        apart = np.abs(nearest[..., :4] - np.log(numbers / self.axes.untanned)).max(axis=-1)
         return apart <= nearest[..., 4]
 
-    def plane(self, name: str, states: np.ndarray) -> np.ndarray:
+    def plane(self, name: str, states: ArrayLike) -> NDArray[np.float64]:
         """One plane at tanning states (..., 4), shape (..., components)."""
         return self.lookup(states, (name,))[name]

@@ -1,8 +1,9 @@
 """Doses of ultraviolet light, and when they fall."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 
@@ -10,7 +11,7 @@ LONGEST_HOURS = 24 * 366 * 100
 LARGEST_DOSE = 1e12  # SED; far beyond any, and its sums stay finite
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Exposures:
     """Doses of ultraviolet light.
 
@@ -40,35 +41,63 @@ class Exposures:
     (2, 2, 4)
     """
 
-    hours: np.ndarray = field(default_factory=lambda: np.zeros(0, int))
-    doses: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    thickening_doses: np.ndarray = None  # type: ignore[assignment]  # filled in below
+    hours: NDArray[np.int_]
+    doses: NDArray[np.float64]
+    thickening_doses: NDArray[np.float64]
 
-    def __post_init__(self):
-        hours = as_numbers("hours of exposure", self.hours)
-        if hours.ndim != 1:
-            raise InputError(f"hours of exposure have shape {hours.shape}; expected one row.")
-        outside = hours[~((hours >= 0) & (hours <= LONGEST_HOURS))]
-        if outside.size:
+    # Written out: what is given may be a list, what is kept is an array.
+    def __init__(
+        self,
+        hours: ArrayLike = (),
+        doses: ArrayLike = (),
+        thickening_doses: ArrayLike | None = None,
+    ) -> None:
+        whole = _whole_hours(hours)
+        melanogenesis = _checked_doses(doses, whole.size)
+        thickening = melanogenesis
+        if thickening_doses is not None:
+            thickening = _checked_doses(thickening_doses, whole.size)
+        if thickening.shape != melanogenesis.shape:
             raise InputError(
-                f"an hour of exposure is {outside[0]:.10g}; allowed is 0 to {LONGEST_HOURS}."
+                f"thickening doses have shape {thickening.shape}; expected {melanogenesis.shape}."
             )
-        between = hours[hours != np.floor(hours)]
-        if between.size:
-            raise InputError(f"an hour of exposure is {between[0]:.10g}; allowed are whole hours.")
-        doses = _checked_doses(self.doses, hours.size)
-        thickening = self.thickening_doses
-        thickening = doses if thickening is None else _checked_doses(thickening, hours.size)
-        if thickening.shape != doses.shape:
-            raise InputError(
-                f"thickening doses have shape {thickening.shape}; expected {doses.shape}."
-            )
-        object.__setattr__(self, "hours", hours.astype(int))
-        object.__setattr__(self, "doses", doses)
+        object.__setattr__(self, "hours", whole)
+        object.__setattr__(self, "doses", melanogenesis)
         object.__setattr__(self, "thickening_doses", thickening)
 
 
-def _checked_doses(given: np.ndarray, exposures: int) -> np.ndarray:
+def require_exposures(exposures: Exposures) -> Exposures:
+    """The exposures, if they are some and not doses or hours alone.
+
+    Raises
+    ------
+    InputError
+        If they are anything else.
+    """
+    if not isinstance(exposures, Exposures):
+        raise InputError(
+            f"exposures are {str(exposures)[:60]!r}; expected Exposures(hours, doses), such as "
+            "Exposures([0], [30]) for 30 SED at hour 0."
+        )
+    return exposures
+
+
+def _whole_hours(given: ArrayLike) -> NDArray[np.int_]:
+    hours = as_numbers("hours of exposure", given)
+    if hours.ndim != 1:
+        raise InputError(f"hours of exposure have shape {hours.shape}; expected one row.")
+    outside = hours[~((hours >= 0) & (hours <= LONGEST_HOURS))]
+    if outside.size:
+        raise InputError(
+            f"an hour of exposure is {outside[0]:.10g}; allowed is 0 to {LONGEST_HOURS}."
+        )
+    between = hours[hours != np.floor(hours)]
+    if between.size:
+        raise InputError(f"an hour of exposure is {between[0]:.10g}; allowed are whole hours.")
+    return hours.astype(int)
+
+
+def _checked_doses(given: ArrayLike, exposures: int) -> NDArray[np.float64]:
     doses = as_numbers("doses", given)
     if doses.ndim < 1 or doses.shape[-1] != exposures:
         raise InputError(

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from numbers import Real
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range, require_whole
 from hylios.tanning.dynamics import MelaninDynamics, ThicknessDynamics
-from hylios.tanning.exposures import LONGEST_HOURS, Exposures
+from hylios.tanning.exposures import LONGEST_HOURS, Exposures, require_exposures
 from hylios.tanning.recurrence import (
     accumulated,
     in_a_row,
@@ -87,7 +87,7 @@ def states_at(
     med: float,
     thickness: ThicknessDynamics | None = None,
     step: int = 1,
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """States of the skin at some times, simulated up to the last of them and no further.
 
     Parameters
@@ -122,8 +122,10 @@ def states_at(
     Raises
     ------
     InputError
-        If a minimal dose is not positive, or a time or the step is out of range.
+        If those are no exposures, a minimal dose is not positive, or a time or the step is out of
+        range.
     """
+    require_exposures(exposures)
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
     step = require_whole("step in hours", step, 1, LONGEST_STEP)
@@ -171,6 +173,7 @@ def simulate_in_parts(
     """
     hours = require_whole("number of hours", hours, 0, LONGEST_HOURS)
     _check_step(step)
+    require_exposures(exposures)
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
     thickness = thickness or ThicknessDynamics()
@@ -220,7 +223,7 @@ def _curves(
 
 def _between(
     curves: tuple[np.ndarray, ...], times: np.ndarray, marks: int, step: int
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """Curves at some times (H, T, 4), straight between the steps' ends."""
     before = np.minimum((times / step).astype(int), max(marks - 1, 0))
     after = np.minimum(before + 1, marks)
@@ -243,7 +246,7 @@ def _make_relative(
     states /= np.append(np.full(3, without_sun[:3].sum()), without_sun[3])
 
 
-def hill(signal: np.ndarray, constant: float, exponent: float) -> np.ndarray:
+def hill(signal: np.ndarray, constant: float, exponent: float) -> NDArray[np.float64]:
     """Response s^k / (s^k + w^k), without overflow for any signal from 0 on (5.11, 5.26)."""
     with np.errstate(divide="ignore", over="ignore"):
         return 1.0 / (1.0 + (constant / signal) ** exponent)
@@ -281,7 +284,7 @@ def _by_hour(when: np.ndarray, doses, some: slice, hours: int) -> np.ndarray:
 
 def _response(
     received: np.ndarray, dynamics: MelaninDynamics | ThicknessDynamics, step: int
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """The Hill factor at the steps' ends (5.5 to 5.8 and 5.11, 5.21 to 5.26).
 
     From doses by the hour in multiples of the threshold.
@@ -298,7 +301,7 @@ def _response(
 
 def _signal_by_step(
     energy: np.ndarray, dynamics: MelaninDynamics | ThicknessDynamics, step: int
-) -> np.ndarray:
+) -> NDArray[np.float64]:
     """The signal substance at the steps' ends, from effective energy (hours, H): exact.
 
     It is what each hour's energy still amounts to, summed (the thesis's footnote to 5.5).

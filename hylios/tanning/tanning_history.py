@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
@@ -25,16 +26,16 @@ class TanningHistory:
     darkest on day 11
     """
 
-    hours: np.ndarray
-    melanin: np.ndarray
-    thickness: np.ndarray
+    hours: NDArray[np.float64]
+    melanin: NDArray[np.float64]
+    thickness: NDArray[np.float64]
 
     @property
-    def total(self) -> np.ndarray:
+    def total(self) -> NDArray[np.float64]:
         """Melanin of all layers relative to hour 0, shape (..., T) (5.14)."""
         return self.melanin.sum(axis=-1)
 
     @property
-    def states(self) -> np.ndarray:
+    def states(self) -> NDArray[np.float64]:
         """Melanin of the three layers and thickness side by side, shape (..., T, 4)."""
         return np.concatenate([self.melanin, self.thickness[..., None]], axis=-1)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hylios.errors import require_range
-from hylios.skin.specimen import EPIDERMIS, Specimen
+from hylios.skin.specimen import EPIDERMIS, Specimen, require_specimen
 from hylios.tissue.absorbers import PARTS, absorbers
 from hylios.tissue.melanosomes import melanosomes, scattering_angle
 from hylios.tissue.model import Model
@@ -104,11 +104,13 @@ class Stack:
         Raises
         ------
         InputError
-            If the wavelength lies outside the spectra, an absorption coefficient or refractive
-            index that follows from them is out of range, or a layer is too thin for the
-            melanosomes in it, or so thick, full and clear that a ray would hardly ever end.
+            If that is no specimen, the wavelength lies outside the spectra, an absorption
+            coefficient or refractive index that follows from them is out of range, or a layer is
+            too thin for the melanosomes in it, or so thick, full and clear that a ray would hardly
+            ever end.
         """
         model = model or Model()
+        require_specimen(specimen)
         absorption = {
             part: float(sum(coefficients.values()))
             for part, coefficients in absorbers(specimen, wavelength, model).items()

@@ -29,6 +29,7 @@ The surface's own ratio was 3.5 in S3 and 2.4 in S4; cos(15) / cos(75) is 3.7, b
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.errors import require_whole
 from hylios.skin.specimen import Specimen
@@ -68,35 +69,35 @@ class AngularReflectance:
 
     angle: float
     rays: int
-    polar_edges: np.ndarray
-    azimuth_edges: np.ndarray
-    surface_counts: np.ndarray
-    subsurface_counts: np.ndarray
+    polar_edges: NDArray[np.float64]
+    azimuth_edges: NDArray[np.float64]
+    surface_counts: NDArray[np.float64]
+    subsurface_counts: NDArray[np.float64]
 
     @property
-    def projected_solid_angle(self) -> np.ndarray:
+    def projected_solid_angle(self) -> NDArray[np.float64]:
         """Omega of each bin, both sides together, (P, A) in sr; their sum is pi."""
         rings = np.diff(np.sin(np.radians(self.polar_edges)) ** 2)
         return np.outer(rings, np.diff(np.radians(self.azimuth_edges)))
 
     @property
-    def surface(self) -> np.ndarray:
+    def surface(self) -> NDArray[np.float64]:
         """f_r of light that the surface reflects, (P, A) in 1/sr."""
         return self.surface_counts / self.rays / self.projected_solid_angle
 
     @property
-    def subsurface(self) -> np.ndarray:
+    def subsurface(self) -> NDArray[np.float64]:
         """f_r of light that leaves after having been inside, (P, A) in 1/sr."""
         return self.subsurface_counts / self.rays / self.projected_solid_angle
 
     @property
-    def total(self) -> np.ndarray:
+    def total(self) -> NDArray[np.float64]:
         """f_r of all reflected light, (P, A) in 1/sr."""
         counts = self.surface_counts + self.subsurface_counts
         return counts / self.rays / self.projected_solid_angle
 
     @property
-    def standard_error(self) -> np.ndarray:
+    def standard_error(self) -> NDArray[np.float64]:
         """Standard error of `total`, (P, A) in 1/sr; not 0 where no ray came (`share_error`)."""
         counts = self.surface_counts + self.subsurface_counts
         return share_error(counts, self.rays) / self.projected_solid_angle

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.burley import burley_share_within, burley_width, burley_width_error
 from hylios.errors import InputError, require_range, require_whole
@@ -43,7 +44,7 @@ class Rings:
         require_whole("number of rings", self.count, 2, MOST_RINGS)
 
     @property
-    def edges(self) -> np.ndarray:
+    def edges(self) -> NDArray[np.float64]:
         """Radii (N + 1,) in mm, the first 0."""
         return np.concatenate([[0.0], np.geomspace(self.smallest, self.largest, self.count)])
 
@@ -73,21 +74,21 @@ class RadialExitance:
 
     angle: float
     rays: int
-    edges: np.ndarray
-    counts: np.ndarray
+    edges: NDArray[np.float64]
+    counts: NDArray[np.float64]
 
     @property
-    def area(self) -> np.ndarray:
+    def area(self) -> NDArray[np.float64]:
         """Areas of the rings, (N,) in mm^2."""
         return np.pi * np.diff(self.edges**2)
 
     @property
-    def exitance(self) -> np.ndarray:
+    def exitance(self) -> NDArray[np.float64]:
         """R of each ring, (N,) in 1/mm^2."""
         return self.counts[:-1] / self.rays / self.area
 
     @property
-    def standard_error(self) -> np.ndarray:
+    def standard_error(self) -> NDArray[np.float64]:
         """Standard error of R, (N,) in 1/mm^2; not 0 where no ray came (`share_error`)."""
         return share_error(self.counts[:-1], self.rays) / self.area
 
@@ -126,7 +127,7 @@ class RadialExitance:
         return burley_width_error(self.edges, self.counts)
 
     @property
-    def burley(self) -> np.ndarray:
+    def burley(self) -> NDArray[np.float64]:
         """Mean of the fitted Burley profile over each ring, (N,) in 1/mm^2, with all the light.
 
         Raises

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.errors import require_range, require_whole
 from hylios.skin.specimen import Specimen
@@ -198,28 +199,28 @@ class Spectrum:
         Subsurface rays by distance between entry and exit: bin i starts at DISTANCE_EDGES[i].
     """
 
-    wavelengths: np.ndarray
+    wavelengths: NDArray[np.float64]
     rays: int
-    surface: np.ndarray
-    subsurface: np.ndarray
-    transmittance: np.ndarray
-    absorbed: np.ndarray
-    absorbed_in_melanosomes: np.ndarray
-    absorber_shares: np.ndarray
-    exit_counts: np.ndarray
+    surface: NDArray[np.float64]
+    subsurface: NDArray[np.float64]
+    transmittance: NDArray[np.float64]
+    absorbed: NDArray[np.float64]
+    absorbed_in_melanosomes: NDArray[np.float64]
+    absorber_shares: NDArray[np.float64]
+    exit_counts: NDArray[np.float64]
 
     @property
-    def total(self) -> np.ndarray:
+    def total(self) -> NDArray[np.float64]:
         """Reflectance, (W,)."""
         return self.surface + self.subsurface
 
     @property
-    def absorptance(self) -> np.ndarray:
+    def absorptance(self) -> NDArray[np.float64]:
         """Share of the light that is absorbed, also in the hypodermis, (W,); counted itself."""
         return self.transmittance + (self.absorbed + self.absorbed_in_melanosomes).sum(axis=1)
 
     @property
-    def absorbed_by(self) -> np.ndarray:
+    def absorbed_by(self) -> NDArray[np.float64]:
         """Share of the light that ends in each layer's absorbers, one by one, (W, L, A).
 
         What a layer's absorbers take together is counted; which of them took a ray depends on
@@ -229,12 +230,12 @@ class Spectrum:
         return self.absorbed[:, :, None] * self.absorber_shares
 
     @property
-    def standard_error(self) -> np.ndarray:
+    def standard_error(self) -> NDArray[np.float64]:
         """Standard error of the reflectance, (W,); not 0 where no ray came back (`share_error`)."""
         return share_error(self.total * self.rays, self.rays)
 
 
-def share_error(counts: np.ndarray, rays: int) -> np.ndarray:
+def share_error(counts: NDArray[np.float64], rays: int) -> NDArray[np.float64]:
     """Standard error of counts / rays: binomial, with one more ray of either fate.
 
     So it is not 0 where no ray, or every ray, was counted (Laplace's rule of succession).

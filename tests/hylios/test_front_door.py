@@ -3,8 +3,11 @@
 import ast
 import doctest
 import inspect
+import json
+import re
 import subprocess
 import sys
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -107,3 +110,78 @@ def test_the_part_that_the_add_on_carries_says_what_it_lacks(tmp_path):
         "hylios.walk_spectrum is not in this copy of hylios, which a Blender add-on carries; "
         "the project's own installation has all of it."
     )
+
+
+SKIN, LIGHT = hylios.skin_type("III"), range(400, 701, 50)
+ARM = hylios.specimen("S3")
+
+MISTAKEN = {
+    "a text without a file": (lambda: hylios.read_table("x.exr"), "x.exr cannot be read: No such"),
+    "a number for a table": (lambda: hylios.read_table(3), "named '3'; expected a path"),
+    "a number for a file": (lambda: hylios.read_specimen(3), "named '3'; expected a path"),
+    "an empty name": (lambda: hylios.read_specimen(""), "named ''; expected a path"),
+    "a skin solved": (lambda: hylios.solve_spectrum(SKIN, LIGHT), "skin.at(state) is a specimen"),
+    "a skin walked": (lambda: hylios.walk_spectrum(SKIN, LIGHT), "skin.at(state) is a specimen"),
+    "a skin's BRDF": (lambda: hylios.brdf(SKIN, 550), "skin.at(state) is a specimen"),
+    "a skin's profile": (lambda: hylios.profile(SKIN, 550), "skin.at(state) is a specimen"),
+    "a skin in the sun": (lambda: hylios.ultraviolet_absorptance(SKIN), "skin.at(state) is a"),
+    "a skin fitted": (lambda: hylios.fit_spectrum(SKIN, [500], [0.3]), "skin.at(state) is a"),
+    "a name solved": (lambda: hylios.solve_spectrum("III", LIGHT), "the specimen is 'III'; expe"),
+    "a name tanned": (lambda: hylios.Skin.of("S3"), "the specimen is 'S3'; expected a Specimen"),
+    "nothing seen": (lambda: hylios.Colour.of(None), "the spectrum is 'None'; expected one with"),
+    "a dose alone": (lambda: SKIN.states(30, times=[1]), "exposures are '30'; expected Exposures("),
+    "a dose's history": (lambda: SKIN.history(30, 1), "exposures are '30'; expected Exposures("),
+    "a day as text": (
+        lambda: hylios.sun_doses("2025-06-21", 10, 16, 40, None),
+        "the day is '2025-06-21'; expected a datetime.date",
+    ),
+    "no absorptance": (
+        lambda: hylios.sun_doses(date(2025, 6, 21), 10, 16, 40, None),
+        "the absorptance is 'None'; expected a skin's",
+    ),
+    "types in a list": (lambda: hylios.skin_type(["III"]), "no skin type \"['III']\"; there are I"),
+    "names in a list": (lambda: hylios.specimen(["S3"]), "no specimen \"['S3']\"; there are S1"),
+    "a text as a colour": (lambda: hylios.fit_colour(ARM, "red"), "red; expected an array of num"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKEN)
+def test_what_is_mistaken_for_something_else_is_one_sentence(name):
+    call, sentence = MISTAKEN[name]
+    with pytest.raises(hylios.InputError, match=re.escape(sentence)):
+        call()
+
+
+@pytest.mark.parametrize("wavelengths", [[500], range(500, 601, 10), range(400, 691, 10)])
+def test_a_spectrum_that_ends_in_the_visible_has_no_colour(wavelengths):
+    """`hylios swatch` refuses the same."""
+    with pytest.raises(hylios.InputError, match="a colour needs 400 to 700 nm"):
+        hylios.Colour.of(hylios.solve_spectrum(ARM, wavelengths))
+
+
+def test_files_are_named_by_text_or_path(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text('base = "S3"\npapillary_blood = 0.4\n')
+    assert hylios.read_specimen(str(file)) == hylios.read_specimen(file)
+    table = ROOT / "blender_addon" / "tables" / "III.exr"
+    first, second = hylios.read_table(str(table)), hylios.read_table(table)
+    assert first.provenance == second.provenance
+
+
+def test_an_editor_knows_the_types_of_the_readmes_lines(tmp_path):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (lines,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    shown = ("colour.srgb", "colour.lab", "spectrum.total", "skin.states(hylios.Exposures(), [1])")
+    file = tmp_path / "readme.py"
+    file.write_text(lines + "".join(f"reveal_type({name})\n" for name in shown))
+    checker = Path(sys.executable).with_name("basedpyright")
+    (tmp_path / "pyrightconfig.json").write_text(
+        json.dumps({"typeCheckingMode": "standard", "extraPaths": [str(ROOT)]})
+    )
+    command = [checker, "-p", tmp_path, "--pythonpath", sys.executable, "--outputjson"]
+    found = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    said = json.loads(found.stdout)["generalDiagnostics"]
+    assert [one["message"] for one in said if one["severity"] == "error"] == []
+    types = [one["message"] for one in said if one["severity"] == "information"]
+    assert len(types) == len(shown)
+    assert all("float64" in text for text in types), types

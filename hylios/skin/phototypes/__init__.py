@@ -20,6 +20,7 @@ from hylios.skin.skin import Skin
 from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, specimen_of
 
 PHOTOTYPES = ("I", "II", "III", "IV", "V", "VI")
+"""Names of Fitzpatrick's skin types, from very light to dark, as `skin_type` takes them."""
 
 _MELANIN = [
     f"{layer}_{form}" for layer in EPIDERMIS for form in ("melanosomes", "colloidal_melanin")
@@ -70,7 +71,6 @@ class Phototype:
     guesses: tuple[str, ...]
 
 
-@cache
 def phototype(name: str) -> Phototype:
     """A skin type by its name, I to VI.
 
@@ -79,8 +79,15 @@ def phototype(name: str) -> Phototype:
     InputError
         If there is none of that name.
     """
-    if name not in PHOTOTYPES:
-        raise InputError(f"there is no skin type {name!r}; there are {', '.join(PHOTOTYPES)}.")
+    if not isinstance(name, str) or name not in PHOTOTYPES:
+        raise InputError(
+            f"there is no skin type {str(name)[:60]!r}; there are {', '.join(PHOTOTYPES)}."
+        )
+    return _phototype(name)
+
+
+@cache
+def _phototype(name: str) -> Phototype:
     decided, fitted = _read("types.toml")[name], dict(_read("fitted.toml")[name])
     misfit = {key: fitted.pop(key) for key in ("rmse", "ciede2000")}
     begun = start(name)
@@ -150,7 +157,9 @@ def specimens() -> Mapping[str, Specimen]:
 
 
 def named_specimen(name: str) -> Specimen:
-    """One of `specimens` by name.
+    """A specimen of skin without a tan, by name: S1 to S4 of table 6.1, or a skin type, I to VI.
+
+    `dataclasses.replace` varies it; `skin_type` gives a type with the way it tans.
 
     Raises
     ------
@@ -163,8 +172,10 @@ def named_specimen(name: str) -> Specimen:
     >>> hylios.specimen("S3").papillary_blood
     0.3
     """
-    if name not in specimens():
-        raise InputError(f"there is no specimen {name!r}; there are {', '.join(specimens())}.")
+    if not isinstance(name, str) or name not in specimens():
+        raise InputError(
+            f"there is no specimen {str(name)[:60]!r}; there are {', '.join(specimens())}."
+        )
     return specimens()[name]
 
 

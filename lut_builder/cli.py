@@ -1,9 +1,8 @@
 """The command `lut-builder`: builds, describes and checks tables of skin that tans."""
 
-import argparse
 import sys
 
-from hylios.commands.shell import run
+from hylios.commands.shell import Parser, run
 from lut_builder.commands.build import add_build
 from lut_builder.commands.check import add_check
 from lut_builder.commands.info import add_info
@@ -16,9 +15,9 @@ def main(arguments: list[str] | None = None) -> int:
     return run(parsed.command, parsed)
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """The parser of the command's arguments."""
-    whole = argparse.ArgumentParser(prog="lut-builder", description=__doc__)
+    whole = Parser(prog="lut-builder", description=__doc__)
     commands = whole.add_subparsers(required=True, metavar="COMMAND")
     for add in (add_build, add_info, add_check, add_trade):
         add(commands)

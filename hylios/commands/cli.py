@@ -4,7 +4,7 @@ import argparse
 import sys
 
 from hylios.commands import brdf, dose, fit, plot, profile, reflectance, specimen, swatch, tan
-from hylios.commands.shell import run
+from hylios.commands.shell import Parser, run
 
 COMMANDS = (reflectance, brdf, profile, swatch, plot, specimen, fit, dose, tan)
 """Modules with a function `add_to`, which adds their command to a parser's subcommands."""
@@ -17,7 +17,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="hylios",
         description="Light and tanning in human skin: CSV on standard output, pictures in files.",
     )

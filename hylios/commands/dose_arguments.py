@@ -234,7 +234,7 @@ def _protection(arguments: argparse.Namespace) -> Protection:
 
 def _parts(text: str, count: int, what: str, expected: str) -> list[str]:
     parts = text.split(":")
-    if len(parts) < count:
+    if len(parts) < count or not all(parts):
         raise InputError(f"{what} is {text!r}; expected {expected}.")
     return [parts[0], ":".join(parts[1 : len(parts) - count + 2]), *parts[len(parts) - count + 2 :]]
 

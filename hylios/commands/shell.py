@@ -4,6 +4,7 @@ import argparse
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
@@ -20,6 +21,36 @@ from hylios.tissue import SPECTRA, Model
 
 MOST_WAVELENGTHS = 10_000
 USUAL_SPECIMEN = "S3"
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser of a command's arguments whose errors are one sentence.
+
+    An empty text is none of a path, a name or a number: in a shell it is mostly a variable that
+    was never set.
+    """
+
+    def __init__(self, *arguments, **named):
+        super().__init__(*arguments, **named)
+        self.register("type", float, plain_number)
+        self.register("type", int, plain_whole)
+
+    def parse_args(self, args=None, namespace=None):
+        """The arguments; ends the process with status 2 and a sentence where one is missing."""
+        given = sys.argv[1:] if args is None else args
+        for before, text in zip(["", *given], given, strict=False):
+            if not text or (text.startswith("--") and text.endswith("=") and text.count("=") == 1):
+                name = text.removesuffix("=") or (before if before.startswith("-") else "")
+                self.error(f"{name or 'an argument'} is empty; leave it out or give a value.")
+        return super().parse_args(args, namespace)
+
+    def error(self, message: str) -> NoReturn:
+        """End the process with status 2."""
+        sentence = message.strip().removesuffix(".")
+        for type_of, meaning in (("float", "a number"), ("int", "a whole number")):
+            sentence = sentence.replace(f"invalid {type_of} value:", f"expected {meaning}, not")
+        print(f"error: {shown(sentence)}. `{self.prog} --help` says more.", file=sys.stderr)
+        sys.exit(2)
 
 
 def run(command: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
@@ -250,7 +281,7 @@ def wavelength_range(text: str) -> np.ndarray:
     """
     separator = ":" if ":" in text else ","
     try:
-        numbers = [float(part) for part in text.split(separator)]
+        numbers = [plain_number(part) for part in text.split(separator)]
     except ValueError:
         numbers = []
     if separator == "," and 0 < len(numbers) <= MOST_WAVELENGTHS:
@@ -271,10 +302,10 @@ def named_values(pairs: list[str], what: str) -> dict[str, str]:
     Raises
     ------
     InputError
-        If a text has no equals sign.
+        If a text has no equals sign, or nothing before or after it.
     """
     for pair in pairs:
-        if "=" not in pair:
+        if "=" not in pair or not all(pair.split("=", 1)):
             raise InputError(f"{what} is {pair!r}; expected NAME=VALUE.")
     return dict(pair.split("=", 1) for pair in pairs)
 
@@ -288,6 +319,32 @@ def number(text: str, name: str) -> float:
         If it is none.
     """
     try:
-        return float(text)
+        return plain_number(text)
     except ValueError as error:
         raise InputError(f"{name} is {text!r}; expected a number.") from error
+
+
+def plain_number(text: str) -> float:
+    """A number as people write it, and not as Python does, where 1_0 is 10.
+
+    Raises
+    ------
+    ValueError
+        If the text is none.
+    """
+    if "_" in text:
+        raise ValueError(f"there is an underscore in {text!r}")
+    return float(text)
+
+
+def plain_whole(text: str) -> int:
+    """A whole number, as `plain_number` has one.
+
+    Raises
+    ------
+    ValueError
+        If the text is none.
+    """
+    if "_" in text:
+        raise ValueError(f"there is an underscore in {text!r}")
+    return int(text)

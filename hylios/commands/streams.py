@@ -30,9 +30,32 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+    sys.stderr = _Forgiving(sys.stderr)
     if sys.stdout is None:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")
         raise InputError("standard output is closed; there is nowhere to print to.")
+
+
+class _Forgiving:
+    """Standard error where what cannot be written, as on a full disk, is lost and stops nothing."""
+
+    def __init__(self, stream):
+        self._stream = stream
+
+    def __getattr__(self, name: str):
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        try:
+            return self._stream.write(text)
+        except OSError:
+            return len(text)
+
+    def flush(self) -> None:
+        try:
+            self._stream.flush()
+        except OSError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
 
 
 @contextmanager

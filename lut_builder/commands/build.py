@@ -2,9 +2,12 @@
 
 import argparse
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from hylios.commands.shell import (
     add_skin_arguments,
@@ -17,8 +20,10 @@ from hylios.commands.shell import (
 )
 from hylios.errors import InputError, require_whole
 from hylios.quadrature import FEWEST, MOST
+from hylios.readers.text import name_of
 from hylios.skin import UNTANNED
 from hylios.table import INTERPOLATIONS
+from hylios.tanning import Exposures
 from lut_builder.commands.limits import (
     add_limit_arguments,
     has_limit,
@@ -144,7 +149,8 @@ def build_table(arguments: argparse.Namespace) -> None:
     reached = None
     if arguments.schedule is not None:
         days = SCENE_DAYS if arguments.days is None else arguments.days
-        reached = reached_states(skin, read_schedule(arguments.schedule), days)
+        schedule = _doses_of(read_schedule(arguments.schedule), arguments.schedule, days)
+        reached = reached_states(skin, schedule, days)
     request = requested(skin, settings, seed=arguments.seed, model=model, reached=reached)
     count, work = len(request.states), units(request)
     with resumable(arguments, ".exr") as unfinished:
@@ -161,6 +167,20 @@ def build_table(arguments: argparse.Namespace) -> None:
     if cut:
         print(f"note: {cut} of {count} states would overfill a layer with melanin; cut")
     print(f"wrote {arguments.output}: {os.path.getsize(arguments.output) / 1000:.1f} KB")
+
+
+def _doses_of(schedule: Exposures, path: Path, days: float) -> Exposures:
+    """The schedule, if it has a dose; says which doses come too late to count."""
+    if not schedule.hours.size:
+        raise InputError(f"{name_of(path)} has no dose; a schedule needs at least one row.")
+    late = np.unique(schedule.hours[schedule.hours > 24.0 * days])
+    if late.size:
+        hours = ", ".join(map(str, late[:5])) + (", ..." if late.size > 5 else "")
+        print(
+            f"note: doses after day {days:g}, the last of the scene, do not count: hour {hours}",
+            file=sys.stderr,
+        )
+    return schedule
 
 
 def _runner(arguments: argparse.Namespace, seconds: float) -> "Runner":

@@ -46,7 +46,13 @@ def on_cluster(address: str) -> Runner:
         It raises InputError if the package `distributed` is missing; if the scheduler cannot be
         reached, is lost, or has no worker within `PATIENCE`; if a worker lacks this project or
         has another version of it or of a library; if a unit brings down one worker after another.
+    Raises
+    ------
+    InputError
+        If the address is none.
     """
+    if not re.fullmatch(r"(tcp|tls)://[^/@]+:\d{1,5}", address):
+        raise InputError(f"the Dask scheduler is {address!r}; expected is tcp://HOST:PORT.")
 
     def run(units: Sequence[Unit], software: str) -> Generator[tuple[Unit, bytes], None, None]:
         with _connected(address) as client:
@@ -114,8 +120,6 @@ def _quieten() -> None:
 
 def _require_reachable(address: str) -> None:
     """Raise InputError where nothing listens: Dask would try for as long as it is let."""
-    if not re.fullmatch(r"(tcp|tls)://[^/@]+:\d{1,5}", address):
-        raise InputError(f"the Dask scheduler is {address!r}; expected is tcp://HOST:PORT.")
     try:
         place = urlsplit(address)
         socket.create_connection((place.hostname, place.port), PATIENCE).close()

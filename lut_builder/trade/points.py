@@ -169,6 +169,8 @@ def _points(table: Table) -> list[Point]:
                 f"{str(error).rstrip('.')}."
             ) from error
         points.append(Point(made, **{name: float(numbers[name][row]) for name in NUMBERS}))
+    if not points:
+        raise InputError(f"{table.name} has no table; a front needs at least one row.")
     return points
 
 

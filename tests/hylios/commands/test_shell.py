@@ -1,6 +1,7 @@
 """The commands in a shell that closes streams, names files oddly and asks for too much."""
 
 import os
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.image import imread
+
+from hylios.commands.cli import main
 
 HYLIOS = f"{sys.executable} -m hylios.commands.cli"
 SPECTRUM = "wavelength_nm,total\n400,0.2\n700,0.6\n"
@@ -75,7 +78,9 @@ def test_a_name_with_a_line_break_is_shown_on_one_line(folder):
 def test_an_empty_name_of_the_output_is_refused(folder, command):
     ended = shell(folder, f"hylios {command} -o ''")
     assert ended.returncode == 2
-    assert ended.stderr.startswith(b"error: the file is to be .; its name must end in .png")
+    assert ended.stderr == (
+        b"error: -o is empty; leave it out or give a value. `hylios --help` says more.\n"
+    )
 
 
 def test_too_many_squares_are_refused_before_any_work(folder):
@@ -138,3 +143,63 @@ def test_a_name_with_a_line_break_writes_no_line_of_a_fit(folder):
     text = (folder / "own.toml").read_text()
     assert text.startswith("# Fitted to a\\noxygenated_blood = 0, total, at 7 wavelengths")
     assert shell(folder, "hylios specimen own.toml").returncode == 0
+
+
+@pytest.mark.parametrize(
+    "arguments, name",
+    [
+        ("reflectance --specimen ''", "--specimen"),
+        ("tan --sun 2025-06-21:10-12 --latitude 40 --start=", "--start"),
+        ("plot '' -o p.svg", "an argument"),
+        ("fit --spectrum ''", "--spectrum"),
+        ("tan --dose ''", "--dose"),
+    ],
+)
+def test_an_empty_text_is_refused_whatever_it_is_for(arguments, name, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(shlex.split(arguments))
+    said = capsys.readouterr()
+    sentence = f"error: {name} is empty; leave it out or give a value. `hylios --help` says more."
+    assert (said.out, said.err) == ("", f"{sentence}\n")
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        ("tan --hours x", "argument --hours: expected a whole number, not 'x'. `hylios tan --h"),
+        ("tan --hours 1_0", "argument --hours: expected a whole number, not '1_0'. `hylios tan"),
+        ("tan --mmd 1_0", "argument --mmd: expected a number, not '1_0'. `hylios tan --help` s"),
+        ("tan --skin X", "argument --skin: invalid choice: 'X'"),
+        ("fit", "one of the arguments --spectrum --srgb is required. `hylios fit --help` says m"),
+        ("tin", "argument COMMAND: invalid choice: 'tin'"),
+        ("", "the following arguments are required: COMMAND. `hylios --help` says more.\n"),
+    ],
+)
+def test_arguments_that_do_not_fit_are_one_sentence(arguments, sentence, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(shlex.split(arguments))
+    said = capsys.readouterr()
+    assert said.out == "" and said.err.count("\n") == 1
+    assert said.err.startswith(f"error: {sentence}")
+
+
+@pytest.mark.parametrize(
+    "arguments, sentence",
+    [
+        ("tan --dose 0:1_0", "dose is '1_0'; expected a number."),
+        ("tan --dose 0:", "a dose is '0:'; expected HOUR:SED"),
+        ("dose --spectrum 0::60", "a spectral exposure is '0::60'; expected HOUR:FILE:SECONDS."),
+        ("tan --own-spectrum keratin=", "a spectrum of your own is 'keratin='; expected NAME=VA"),
+        ("reflectance --wavelengths 5_00", "wavelengths are '5_00'; expected FIRST:LAST:STEP"),
+    ],
+)
+def test_parts_of_an_argument_are_as_people_write_them(arguments, sentence, capsys):
+    assert main(shlex.split(arguments)) == 2
+    assert capsys.readouterr().err.startswith(f"error: {sentence}")
+
+
+def test_a_full_standard_error_loses_no_csv(folder):
+    command = "hylios dose --sun 2025-06-21:12-13 --latitude 50"
+    whole, without = shell(folder, command), shell(folder, f"{command} 2>/dev/full")
+    assert (without.returncode, without.stdout) == (0, whole.stdout)
+    assert shell(folder, "hylios tan --dose x 2>/dev/full").returncode == 2

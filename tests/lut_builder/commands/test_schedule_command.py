@@ -38,11 +38,14 @@ def test_a_scene_that_reaches_farther_than_other_suns_saves_nothing(tmp_path, ca
 
 def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
     path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
-    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n0,0,0\n1441,9,9\n")
     quick = "--knots 5,2 --wavelengths 4 --bands visible --no-profile"
     command = f"build --skin III --schedule {sun} {quick} -o {path}"
     assert main(command.split()) == 0
-    assert "states for the scene: 1, for any sun: 10; 90% saved" in capsys.readouterr().out
+    said = capsys.readouterr()
+    assert "states for the scene: 1, for any sun: 10; 90% saved" in said.out
+    late = "note: doses after day 60, the last of the scene, do not count: hour 1441\n"
+    assert late in said.err
     assert read_table(path).axes.shape == (1,)
 
 
@@ -61,6 +64,7 @@ def test_a_schedule_without_a_dose_is_one_state(tmp_path, capsys):
             "hour of -1 in line 2; allowed is 0 to",
         ),
         ("hour,melanogenesis_sed,thickening_sed\n0,nan,1\n", "melanogenesis_sed in line 2 is nan"),
+        ("hour,melanogenesis_sed,thickening_sed\n", "has no dose; a schedule needs at least one"),
         ("\x00\n", "cannot be read: it is empty"),
     ],
 )
@@ -74,7 +78,7 @@ def test_a_schedule_that_is_none_is_one_sentence(tmp_path, capsys, text, sentenc
 
 def test_a_schedule_s_days_are_limited(tmp_path, capsys):
     sun = tmp_path / "sun.csv"
-    sun.write_text("hour,melanogenesis_sed,thickening_sed\n")
+    sun.write_text("hour,melanogenesis_sed,thickening_sed\n0,1,1\n")
     command = f"build --schedule {sun} --days 367 -o {tmp_path}/t.exr"
     assert main(command.split()) == 2
     assert "days of the scene is 367; allowed is 0 to 366." in capsys.readouterr().err

@@ -184,4 +184,4 @@ def test_an_editor_knows_the_types_of_the_readmes_lines(tmp_path):
     assert [one["message"] for one in said if one["severity"] == "error"] == []
     types = [one["message"] for one in said if one["severity"] == "information"]
     assert len(types) == len(shown)
-    assert all("float64" in text for text in types), types
+    assert all("float64" in text or "floating[_64Bit]" in text for text in types), types

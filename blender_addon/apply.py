@@ -6,11 +6,12 @@ import numpy as np
 from hylios.errors import InputError, require_range
 
 from .model import doses
-from .model.settings import TanSettings
+from .model.settings import TanSettings, check_frames
 from .model.tan import Tan, tan_of
 from .props import settings_of
-from .scene import attributes, images, materials, nodes, timeline
-from .scene.ownership import NewBlocks, is_local, names
+from .scene import attributes, first_version, images, materials, nodes, timeline
+from .scene.changes import Changes
+from .scene.ownership import is_local, names
 
 NO_PROFILE = np.zeros((1, 1, 3), np.float32)
 
@@ -28,24 +29,27 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     obj = tannable(obj)
     settings = settings_of(obj)
     attributes.check_mask(obj, settings.mask_attribute)
-    timeline.check_frames(settings.first_frame, settings.last_frame)
+    check_frames(settings.first_frame, settings.last_frame)
+    timeline.check_day_property(obj)
     unit = _scene_unit(scene)
     values = settings.values()
     tan = tan_of(values)
-    with NewBlocks() as blocks:
-        sampled = _sampled(tan, obj, unit, blocks)
-        skin = materials.prepare(obj, blocks)
+    with Changes() as changes:
+        skin = materials.prepare(obj)
+        first_version.take_over(skin.group, changes)
+        made = nodes.made_images(skin.group)
+        sampled = _sampled(tan, obj, unit)
         timeline.key_days(
             obj,
             scene,
-            blocks,
+            changes,
             (values.first_day, values.last_day),
             (settings.first_frame, settings.last_frame),
         )
-    replaced = nodes.update(skin.group, sampled)
-    said = skin.attach(obj)
-    images.replace(replaced, skin.users, obj)
-    return " ".join([said, *_remarks(skin, values, tan)])
+        replaced = nodes.update(skin.group, sampled, changes)
+        said = skin.attach(obj, changes)
+        kept = images.replace(replaced, made, skin.users, obj, changes)
+        return " ".join([said, *_remarks(obj, skin, values, tan), *_on_kept(kept)])
 
 
 def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
@@ -62,6 +66,11 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
         raise InputError(f"{obj.name!r} is of type {obj.type}; select a mesh object.")
     action = obj.animation_data.action if obj.animation_data else None
     for block, what in ((obj, "object"), (obj.data, "mesh of"), (action, "animation of")):
+        if block is not None and block.override_library is not None:
+            raise InputError(
+                f"The {what} {obj.name!r} is a library override; allowed is a local one "
+                "(Object > Library Override > Clear)."
+            )
         if block is not None and not is_local(block):
             raise InputError(
                 f"The {what} {obj.name!r} is linked from another file; allowed is a local one "
@@ -78,14 +87,11 @@ def _scene_unit(scene: bpy.types.Scene) -> float:
     return require_range("unit scale of the scene", units.scale_length, 1e-9, 1e9)
 
 
-def _sampled(tan: Tan, obj: bpy.types.Object, unit: float, blocks: NewBlocks) -> nodes.Sampled:
+def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
     has_profile = tan.profile_width is not None
     return nodes.Sampled(
-        colour=images.packed_image(
-            blocks, f"Skin Tan Colour {obj.name}", tan.colour, is_colour=True
-        ),
+        colour=images.packed_image(f"Skin Tan Colour {obj.name}", tan.colour, is_colour=True),
         width=images.packed_image(
-            blocks,
             f"Skin Tan Width {obj.name}",
             NO_PROFILE if tan.profile_width is None else tan.profile_width,
             is_colour=False,
@@ -98,7 +104,9 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float, blocks: NewBlocks) ->
     )
 
 
-def _remarks(skin: materials.Skin, values: TanSettings, tan: Tan) -> list[str]:
+def _remarks(
+    obj: bpy.types.Object, skin: materials.Skin, values: TanSettings, tan: Tan
+) -> list[str]:
     remarks = []
     if skin.others:
         remarks.append(f"The skin on {names(skin.others)} stays as it was.")
@@ -108,9 +116,22 @@ def _remarks(skin: materials.Skin, values: TanSettings, tan: Tan) -> list[str]:
             f"The tan does not show: nodes were removed from {skin.group.name!r}: "
             f"{', '.join(removed)}."
         )
+    if tan.profile_width is not None and nodes.has_own_shader(skin.group):
+        remarks.append(
+            f"The Principled BSDF was removed from {skin.group.name!r}: subsurface scattering is "
+            "left to the shader in its place."
+        )
+    if timeline.is_driven(obj):
+        remarks.append("A driver governs the day of the tan, so its keys have no effect.")
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")
     if tan.profile_width is None:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks
+
+
+def _on_kept(kept: list[bpy.types.Image]) -> list[str]:
+    if not kept:
+        return []
+    return [f"No longer shown but kept in the file: {names(kept)}."]

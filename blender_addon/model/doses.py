@@ -11,9 +11,15 @@ from hylios.errors import InputError, require_range, require_whole
 from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
 from hylios.sun.protection import BARE, sunscreen
 from hylios.table.provenance import absorptance
-from hylios.tanning import LARGEST_DOSE
 
-from .settings import LAST_DAY_LIMIT, Exposure
+from .settings import (
+    DOSE_LIMIT,
+    DURATION_LIMIT,
+    FACTOR_LIMIT,
+    LAST_DAY_LIMIT,
+    MULTIPLE_LIMIT,
+    Exposure,
+)
 
 ANY_YEAR = 2025  # the sun stands nearly alike in all
 
@@ -41,16 +47,18 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
     """Doses of one exposure; parameters and errors as in `received`."""
     over = BARE
     if exposure.sunscreen:
-        over = sunscreen(exposure.spf, exposure.sunscreen_amount)
+        factor = require_range("SPF", exposure.spf, 1.0, FACTOR_LIMIT)
+        over = sunscreen(factor, exposure.sunscreen_amount)
     hour = begin(exposure)
     if exposure.unit == "SED":
-        dose = require_range("dose of an exposure", exposure.dose, 0.0, LARGEST_DOSE, "SED")
+        dose = require_range("dose of an exposure", exposure.dose, 0.0, DOSE_LIMIT, "SED")
         return of_sed(hour, dose, over)
     if exposure.unit == "MMD":
-        multiple = require_range("times the tanning dose", exposure.multiple, 0.0, 1e6)
+        multiple = require_range("number of tanning doses", exposure.multiple, 0.0, MULTIPLE_LIMIT)
         return of_sed(hour, multiple * mmd, over)
     if exposure.unit == "UV_INDEX":
-        return of_uv_index(hour, exposure.uv_index, exposure.duration, over)
+        duration = require_range("duration", exposure.duration, 0.0, DURATION_LIMIT, "hours")
+        return of_uv_index(hour, exposure.uv_index, duration, over)
     if exposure.unit == "SUN":
         from_midnight = of_sun(
             _date(exposure.month, exposure.day_of_month),

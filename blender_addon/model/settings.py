@@ -5,12 +5,21 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, require_range, require_whole
 from hylios.history import LAST_DAY_LIMIT
 from hylios.table.provenance import MinimalDoses, minimal_doses
 
-LARGEST_MINIMAL_DOSE = 1000.0
-"""Largest minimal dose in SED: a hundred times that of the darkest skin."""
+LEAST_MINIMAL_DOSE, LARGEST_MINIMAL_DOSE = 0.1, 1000.0
+"""Range of minimal doses in SED: the largest is a hundred times that of the darkest skin."""
+
+DOSE_LIMIT, MULTIPLE_LIMIT = 1000.0, 100.0
+"""Largest dose of one exposure, in SED and in minimal tanning doses."""
+
+DURATION_LIMIT, FACTOR_LIMIT = 48.0, 1000.0
+"""Most hours under a UV index, and largest SPF, of one exposure."""
+
+FRAME_LIMIT = 1048574
+"""Last frame of Blender's timeline; the first is minus this."""
 
 
 @dataclass(frozen=True)
@@ -62,10 +71,10 @@ def own_minimal_doses(mmd: float, med: float) -> MinimalDoses:
     Raises
     ------
     InputError
-        If one is not above 0, or too large.
+        If one is out of range.
     """
     for name, value in (("minimal tanning dose", mmd), ("minimal burn dose", med)):
-        require_range(name, value, 1e-3, LARGEST_MINIMAL_DOSE, "SED")
+        require_range(name, value, LEAST_MINIMAL_DOSE, LARGEST_MINIMAL_DOSE, "SED")
     return MinimalDoses(mmd=mmd, med=med)
 
 
@@ -117,4 +126,15 @@ def check_days(first_day: float, last_day: float) -> None:
         raise InputError(
             f"last day is {last_day:g}; allowed is more than the first day, {first_day:g}, "
             f"to {LAST_DAY_LIMIT:g}."
+        )
+
+
+def check_frames(first_frame: int, last_frame: int) -> None:
+    """Raise InputError unless Blender has the frames and the last comes after the first."""
+    require_whole("first frame", first_frame, -FRAME_LIMIT, FRAME_LIMIT)
+    require_whole("last frame", last_frame, -FRAME_LIMIT, FRAME_LIMIT)
+    if not last_frame > first_frame:
+        raise InputError(
+            f"last frame is {last_frame}; allowed is more than the first frame, {first_frame}, "
+            f"to {FRAME_LIMIT}."
         )

@@ -39,10 +39,10 @@ def of_exposure(exposure: Exposure) -> str:
     """An exposure in a few characters."""
     return {
         "SED": f"{exposure.dose:g} SED",
-        "MMD": f"{exposure.multiple:g} MMD",
+        "MMD": f"{exposure.multiple:g} tanning doses",
         "UV_INDEX": f"UV {exposure.uv_index:g}, {exposure.duration:g} h",
         "SUN": f"Sun {exposure.from_hour:g}-{exposure.to_hour:g} h",
-    }[exposure.unit]
+    }.get(exposure.unit, "Unknown unit")
 
 
 def of_dose(exposure: Exposure, path: Path, own_doses: MinimalDoses | None) -> tuple[str, ...]:

@@ -3,7 +3,13 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..model.settings import LAST_DAY_LIMIT
+from ..model.settings import (
+    DOSE_LIMIT,
+    DURATION_LIMIT,
+    FACTOR_LIMIT,
+    LAST_DAY_LIMIT,
+    MULTIPLE_LIMIT,
+)
 
 UNITS = (
     ("SED", "Dose", "As a dose in standard erythema doses (SED)"),
@@ -35,17 +41,17 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         default=10.0,
         min=0.0,
         soft_max=60.0,
-        max=1000.0,
+        max=DOSE_LIMIT,
         step=100,
         precision=1,
     )
     multiple: FloatProperty(
-        name="Times the Tanning Dose",
+        name="Tanning Doses",
         description="How much sun, as a multiple of the smallest dose that tans this skin (MMD)",
         default=2.0,
         min=0.0,
         soft_max=10.0,
-        max=100.0,
+        max=MULTIPLE_LIMIT,
         step=10,
         precision=1,
     )
@@ -65,7 +71,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         default=2.0,
         min=0.0,
         soft_max=12.0,
-        max=48.0,
+        max=DURATION_LIMIT,
         step=50,
         precision=1,
     )
@@ -108,7 +114,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         default=30.0,
         min=1.0,
         soft_max=50.0,
-        max=1000.0,
+        max=FACTOR_LIMIT,
         step=100,
         precision=0,
     )

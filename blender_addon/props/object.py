@@ -18,7 +18,10 @@ from hylios.errors import InputError
 
 from ..model.catalogue import FILE, shipped_path
 from ..model.settings import (
+    FRAME_LIMIT,
+    LARGEST_MINIMAL_DOSE,
     LAST_DAY_LIMIT,
+    LEAST_MINIMAL_DOSE,
     Exposure,
     MinimalDoses,
     TanSettings,
@@ -52,20 +55,22 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         "table's estimate",
     )
     mmd: FloatProperty(
-        name="Tans from SED",
+        name="Tans from (SED)",
         description="Smallest dose in SED that tans this skin (MMD)",
         default=7.0,
-        min=0.1,
+        min=LEAST_MINIMAL_DOSE,
         soft_max=60.0,
+        max=LARGEST_MINIMAL_DOSE,
         step=10,
         precision=1,
     )
     med: FloatProperty(
-        name="Burns from SED",
+        name="Burns from (SED)",
         description="Smallest dose in SED that reddens this skin (MED)",
         default=4.0,
-        min=0.1,
+        min=LEAST_MINIMAL_DOSE,
         soft_max=60.0,
+        max=LARGEST_MINIMAL_DOSE,
         step=10,
         precision=1,
     )
@@ -106,10 +111,18 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         precision=1,
     )
     first_frame: IntProperty(
-        name="First Frame", description="Frame that shows the first day", default=1
+        name="First Frame",
+        description="Frame that shows the first day",
+        default=1,
+        min=-FRAME_LIMIT,
+        max=FRAME_LIMIT,
     )
     last_frame: IntProperty(
-        name="Last Frame", description="Frame that shows the last day", default=250
+        name="Last Frame",
+        description="Frame that shows the last day",
+        default=250,
+        min=-FRAME_LIMIT,
+        max=FRAME_LIMIT,
     )
 
     def values(self) -> TanSettings:
@@ -134,13 +147,19 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         Raises
         ------
         InputError
-            If none is set, or if this add-on lacks the skin.
+            If none is set, if its file is not there, or if this add-on lacks the skin.
         """
         if self.skin != FILE:
             return shipped_path(self.skin)
         if not self.table_path:
             raise InputError("No table is set: choose the path of a skin table (an EXR file).")
-        return Path(bpy.path.abspath(self.table_path))
+        path = Path(bpy.path.abspath(self.table_path))
+        try:
+            path.stat()
+        except (OSError, ValueError) as error:  # a name may hold what no file's can
+            why = getattr(error, "strerror", None) or error
+            raise InputError(f"the table {self.table_path} cannot be read: {why}.") from error
+        return path
 
     def own_doses(self) -> MinimalDoses | None:
         """Minimal doses where they are set by hand.

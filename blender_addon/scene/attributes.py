@@ -6,6 +6,20 @@ import bpy
 
 from hylios.errors import InputError
 
+RESERVED = frozenset(
+    """
+    N uv generated generated_transform tangent tangent_sign undisplaced_tangent
+    undisplaced_tangent_sign vertex_color undeformed undisplaced undisplaced_N particle
+    curve_intercept curve_length curve_random point_random ptex_face_id ptex_uv density color flame
+    heat temperature velocity velocity_x velocity_y velocity_z pointiness random_per_island
+    shadow_transparency motion_P motion_N
+    """.split()
+)
+"""Names under which Cycles shows something of its own and not the mesh's attribute.
+
+From `Attribute::standard_name` in Cycles' sources, less P and radius, which a mesh may use.
+"""
+
 
 def check_mask(obj: bpy.types.Object, name: str) -> None:
     """Raise InputError unless an attribute of a mesh object can hold the share of the dose.
@@ -14,6 +28,11 @@ def check_mask(obj: bpy.types.Object, name: str) -> None:
     """
     if not name:
         return
+    if name in RESERVED:
+        raise InputError(
+            f"The attribute {name!r} cannot be a mask: Cycles keeps that name for itself; rename "
+            "the attribute."
+        )
     mesh = cast(bpy.types.Mesh, obj.data)
     attribute = mesh.attributes.get(name)
     if attribute is None:

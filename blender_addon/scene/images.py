@@ -1,6 +1,8 @@
 """Float images that carry a table of numbers inside the .blend."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Collection, Mapping
+from functools import partial
 from typing import Any, cast
 
 import bpy
@@ -8,7 +10,8 @@ import numpy as np
 
 from hylios.errors import InputError
 
-from .ownership import NewBlocks, Users
+from .changes import Changes
+from .ownership import Users
 
 # The first name is that of Blender's own configuration, the others those of common studio ones.
 COLOUR_SPACES = (
@@ -23,12 +26,15 @@ COLOUR_SPACES = (
 )
 DATA_SPACES = ("Non-Color", "Raw", "Utility - Raw", "raw", "data")
 MARK = "skin_tan"
-"""Custom property of an image that says that this add-on made it."""
+"""Custom property of an image that this add-on made: the name that it gave it."""
 
 
-def packed_image(
-    blocks: NewBlocks, name: str, values: np.ndarray, *, is_colour: bool
-) -> bpy.types.Image:
+def stem(name: str) -> str:
+    """A name without the number that Blender puts behind one that is taken."""
+    return re.sub(r"\.\d{3,}$", "", name)
+
+
+def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:
     """Store values (rows, columns, 3) in a new packed float image, the first row at the bottom.
 
     Parameters
@@ -42,8 +48,8 @@ def packed_image(
         If Blender's colour management has no space that fits.
     """
     rows, columns, _ = values.shape
-    image = blocks.add(bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True))
-    image[MARK] = True
+    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
+    image[MARK] = image.name
     # Setting it after the pixels would discard them.
     set_colour_space(image, is_colour=is_colour)
     pixels = np.ones((rows, columns, 4), dtype=np.float32)
@@ -77,18 +83,44 @@ def set_colour_space(image: bpy.types.Image, *, is_colour: bool) -> None:
 
 
 def replace(
-    replaced: Mapping[bpy.types.Image, bpy.types.Image], users: Users, obj: bpy.types.Object
-) -> None:
-    """Remove an object's former images that no other shows; the new ones get their names."""
-    former = {
-        image: image.name
-        for image in replaced
-        if image.get(MARK) and image.library is None and not users.others(image, obj)
-    }
-    for image in former:
-        if image.users > image.use_fake_user:  # nodes of the artist's own show it
-            image.user_remap(replaced[image])
-    names = {replaced[image]: name for image, name in former.items()}
-    bpy.data.batch_remove(list(former))
-    for image, name in names.items():
-        image.name = name
+    replaced: Mapping[bpy.types.Image, bpy.types.Image],
+    made: Collection[bpy.types.Image],
+    users: Users,
+    obj: bpy.types.Object,
+    changes: Changes,
+) -> list[bpy.types.Image]:
+    """Remove an object's former images that none else shows; the new ones get their names.
+
+    Parameters
+    ----------
+    replaced : mapping
+        From former images to new ones.
+    made : collection of Image
+        Those that this add-on made for the object.
+
+    Returns
+    -------
+    list of Image
+        Images of the artist's own, which are kept.
+    """
+    kept = []
+    for image, new in replaced.items():
+        if image.library is not None:
+            continue
+        if image not in made or image.use_fake_user or not _has_its_name(image):
+            # An artist's image must not be lost on saving for want of a user.
+            changes.set(image, "use_fake_user", True)
+            kept.append(image)
+        elif not users.others(image, obj):
+            name = image.name
+            # Nodes of the artist's own show the new image too.
+            changes.at_the_end(partial(image.user_remap, new))
+            changes.at_the_end(partial(bpy.data.images.remove, image))
+            changes.at_the_end(partial(setattr, new, "name", name))
+            changes.at_the_end(partial(new.__setitem__, MARK, name))
+    return kept
+
+
+def _has_its_name(image: bpy.types.Image) -> bool:
+    """Whether an image has the name still that it was made with."""
+    return stem(image.name) == stem(str(image.get(MARK)))

@@ -6,8 +6,9 @@ from typing import Any, cast
 
 import bpy
 
-from . import nodes
-from .ownership import NewBlocks, Users, is_local, remembered
+from . import first_version, nodes
+from .changes import Changes
+from .ownership import Users, is_local, names, remembered
 
 PREFIX = "Skin Tan "
 
@@ -35,23 +36,24 @@ class Skin:
     _chain: list[Any] = field(default_factory=list)
     _copies: dict[Any, Any] = field(default_factory=dict)
 
-    def attach(self, obj: bpy.types.Object) -> str:
+    def attach(self, obj: bpy.types.Object, changes: Changes) -> str:
         """Have the object show the group, and return a sentence on it."""
         for block in self._chain:
-            _repoint(_tree(self._copies.get(block, block)), self._copies)
+            _repoint(_tree(self._copies.get(block, block)), self._copies, changes)
         settings = remembered(obj)
         if (settings.group, settings.material) != (self.group, self.material):
-            settings.group, settings.material = self.group, self.material
+            changes.set(settings, "group", self.group)
+            changes.set(settings, "material", self.material)
         slots = [slot for slot in obj.material_slots if slot.material in self._chain]
         for slot in slots:
             if slot.material in self._copies:
-                _set_slot(obj, slot, self._copies[slot.material])
+                _set_slot(obj, slot, self._copies[slot.material], changes)
         if slots:
             return f"Updated {self.material.name!r}."
-        return _put_in_active_slot(obj, self.material)
+        return _put_in_active_slot(obj, self.material, changes)
 
 
-def prepare(obj: bpy.types.Object, blocks: NewBlocks) -> Skin:
+def prepare(obj: bpy.types.Object) -> Skin:
     """The object's tan group, to be changed without a change for others; a new one if it has none.
 
     Nothing that the file had before is changed until `Skin.attach`.
@@ -68,11 +70,11 @@ def prepare(obj: bpy.types.Object, blocks: NewBlocks) -> Skin:
         materials = [remembered(obj).material]
         group = _group_of(obj, materials)
     if group is None:
-        return _new_skin(obj, blocks, users)
+        return _new_skin(obj, users)
     nodes.require_readable(group)
     chain: list[Any] = list(_chain(materials, group))
     copies: dict[Any, Any] = {
-        block: _copy(block, obj, blocks)
+        block: _copy(block, obj)
         for block in chain
         if not is_local(block) or users.others(block, obj)
     }
@@ -86,18 +88,18 @@ def prepare(obj: bpy.types.Object, blocks: NewBlocks) -> Skin:
     )
 
 
-def _copy(block: bpy.types.ID, obj: bpy.types.Object, blocks: NewBlocks) -> bpy.types.ID:
-    copy = blocks.add(block.copy())
+def _copy(block: bpy.types.ID, obj: bpy.types.Object) -> bpy.types.ID:
+    copy = block.copy()
     if block.name.startswith(PREFIX):
         # A name for people only: after the object, as that of a new one.
         copy.name = PREFIX + obj.name
     return copy
 
 
-def _new_skin(obj: bpy.types.Object, blocks: NewBlocks, users: Users) -> Skin:
+def _new_skin(obj: bpy.types.Object, users: Users) -> Skin:
     name = PREFIX + obj.name
-    group = nodes.new_group(blocks, name)
-    material = blocks.add(bpy.data.materials.new(name))
+    group = nodes.new_group(name)
+    material = bpy.data.materials.new(name)
     if material.node_tree is None:
         material.use_nodes = True
     tree = material.node_tree
@@ -135,7 +137,7 @@ def _nested(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.NodeTree]:
 def _tan_groups(tree: bpy.types.NodeTree | None) -> Iterator[bpy.types.NodeTree]:
     """Tan groups in a tree, at any depth."""
     for group in _nested(tree):
-        if nodes.is_tan_group(group):
+        if first_version.is_tan_group(group):
             yield group
         else:
             yield from _tan_groups(group)
@@ -163,32 +165,44 @@ def _holding(
             yield from _holding(nested, group)
 
 
-def _repoint(tree: bpy.types.NodeTree | None, copies: dict) -> None:
+def _repoint(tree: bpy.types.NodeTree | None, copies: dict, changes: Changes) -> None:
     """Put copies in place of node groups."""
     nodes_of_groups: Any = tree.nodes if tree else ()
     for node in nodes_of_groups:
         if getattr(node, "node_tree", None) in copies:
-            node.node_tree = copies[node.node_tree]
+            changes.set(node, "node_tree", copies[node.node_tree])
 
 
-def _set_slot(obj: bpy.types.Object, slot, material: bpy.types.Material) -> None:
+def _set_slot(obj: bpy.types.Object, slot, material: bpy.types.Material, changes: Changes) -> None:
     if obj.data.users > 1 and slot.link == "DATA":
         # Other objects have this mesh too: they keep their own skin.
-        slot.link = "OBJECT"
-    slot.material = material
+        changes.set(slot, "link", "OBJECT")
+    changes.set(slot, "material", material)
 
 
-def _put_in_active_slot(obj: bpy.types.Object, material: bpy.types.Material) -> str:
-    if not obj.material_slots:
-        cast(bpy.types.Mesh, obj.data).materials.append(None)
+def _put_in_active_slot(
+    obj: bpy.types.Object, material: bpy.types.Material, changes: Changes
+) -> str:
+    added = "" if obj.material_slots else _add_slot(obj, changes)
     slot = obj.material_slots[obj.active_material_index or 0]
     former = slot.material
-    _set_slot(obj, slot, material)
+    _set_slot(obj, slot, material, changes)
     if former is None:
-        return f"Applied {material.name!r}."
+        return f"Applied {material.name!r}.{added}"
     # An artist's material must not be lost on saving for want of a user.
-    former.use_fake_user = True
+    changes.set(former, "use_fake_user", True)
     return (
         f"Applied {material.name!r} to slot {slot.slot_index + 1} in place of {former.name!r}; "
         "other slots are unchanged."
     )
+
+
+def _add_slot(obj: bpy.types.Object, changes: Changes) -> str:
+    """Give a mesh its first slot, and return a sentence where others have the mesh too."""
+    materials: Any = cast(bpy.types.Mesh, obj.data).materials
+    changes.on_failure(materials.clear)
+    materials.append(None)
+    sharing = [other for other in bpy.data.objects if other.data == obj.data and other != obj]
+    if not sharing:
+        return ""
+    return f" Slots belong to the mesh, so {names(sharing)} got an empty one."

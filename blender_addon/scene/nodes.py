@@ -6,15 +6,14 @@ values alone.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 import bpy
 
 from hylios.errors import InputError
 
-from . import images
-from .ownership import NewBlocks
+from .changes import Changes
 
 DAY_PROPERTY = "tan_day"
 # Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
@@ -27,6 +26,9 @@ PROFILE_KEY = "skin_tan_profile"
 """Custom property of a group: whether its table has a profile, so that light scatters below."""
 
 ROLE_KEY = "skin_tan_role"
+
+IMAGE_KEYS = {"colour": "skin_tan_colour", "width": "skin_tan_width"}
+"""Custom properties of a group: the images that were made for it, whatever its nodes show."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +71,6 @@ LINKS = (
     ("colour", "Color", "output", "Colour"),
     ("width", "Color", "output", "Profile Width"),
 )
-FORMER_ROLES = ("mask", "day", "column", "row", "place", "colour", "width", "radius", "skin")
-"""What the groups of the first version have, `mask` only where a mask was set."""
 
 
 @dataclass(frozen=True)
@@ -100,11 +100,6 @@ class Sampled:
     scene_unit: float
 
 
-def is_tan_group(tree: bpy.types.NodeTree) -> bool:
-    """Whether this add-on, or its first version, made a node group."""
-    return LAYOUT_KEY in tree or _is_of_first_version(tree)
-
-
 def require_readable(group: bpy.types.NodeTree) -> None:
     """Raise InputError where a newer version of the add-on made a group."""
     if group.get(LAYOUT_KEY, LAYOUT) != LAYOUT:
@@ -113,39 +108,50 @@ def require_readable(group: bpy.types.NodeTree) -> None:
         )
 
 
-def new_group(blocks: NewBlocks, name: str) -> bpy.types.NodeTree:
+def new_group(name: str) -> bpy.types.NodeTree:
     """A new node group, for `update` to fill with numbers."""
-    group = blocks.add(bpy.data.node_groups.new(name, "ShaderNodeTree"))
+    group = bpy.data.node_groups.new(name, "ShaderNodeTree")
     _add_sockets(group)
-    _complete(group)
+    complete(group, ROLES)
+    group[LAYOUT_KEY] = LAYOUT
     return group
 
 
-def update(group: bpy.types.NodeTree, sampled: Sampled) -> dict[bpy.types.Image, bpy.types.Image]:
+def update(
+    group: bpy.types.NodeTree, sampled: Sampled, changes: Changes
+) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show other images, and return which new one replaces which former one.
 
     What an artist changed in it otherwise stays: nodes, links, values.
     """
-    if LAYOUT_KEY not in group:
-        _take_over(group)
     replaced = {
         node.image: image
         for role, image in (("colour", sampled.colour), ("width", sampled.width))
-        for node in _of_role(group, role)
+        for node in of_role(group, role)
         if node.image is not None
     }
-    _set_numbers(group, sampled)
-    _set_profile(group, sampled)
+    _set_numbers(group, sampled, changes)
+    _set_profile(group, sampled, changes)
     return replaced
+
+
+def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
+    """The images that were made for a group, as far as they are still in the file."""
+    return [image for key in IMAGE_KEYS.values() if (image := group.get(key)) is not None]
 
 
 def missing_roles(group: bpy.types.NodeTree) -> list[str]:
     """Labels of nodes without which a group cannot show the tan, and which it lacks."""
-    needed = ("day", "row", "column", "place", "colour")
-    return [ROLES[role].label for role in needed if not list(_of_role(group, role))]
+    needed = ("day", "row", "column", "place", "colour", "share")
+    return [ROLES[role].label for role in needed if not list(of_role(group, role))]
 
 
-def _of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
+def has_own_shader(group: bpy.types.NodeTree) -> bool:
+    """Whether an artist has put something in place of the Principled BSDF."""
+    return not list(of_role(group, "skin"))
+
+
+def of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
     """Nodes of a role: an artist may have duplicated some."""
     return (node for node in group.nodes if node.get(ROLE_KEY) == role)
 
@@ -162,16 +168,17 @@ def _add_sockets(group) -> None:
     interface.new_socket("Profile Width", in_out="OUTPUT", socket_type="NodeSocketVector")
 
 
-def _complete(group) -> None:
-    """Make the nodes of all roles that a group lacks, and their links."""
+def complete(group, made: Collection[str]) -> None:
+    """Make the nodes of some roles and their links, other than into what is linked already."""
     present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
-    made = set(ROLES) - set(present)
-    for role in (role for role in ROLES if role in made):
+    for role in made:
         present[role] = _new_node(group, role)
     for source, output, target, socket in LINKS:
-        if {source, target} & made:
-            group.links.new(present[source].outputs[output], _input(present[target], socket))
-    group[LAYOUT_KEY] = LAYOUT
+        if {source, target} & set(made) and {source, target} <= set(present):
+            start = present[source].outputs.get(output)
+            end = find_input(present[target], socket)
+            if start is not None and end is not None and not end.is_linked:
+                group.links.new(start, end)
 
 
 def _new_node(group, role: str):
@@ -190,79 +197,49 @@ def _new_node(group, role: str):
         node.attribute_type = "GEOMETRY"
     elif role == "skin":
         node.subsurface_method = "BURLEY"
-        _input(node, "Subsurface Weight").default_value = 0.0
-        _input(node, "IOR").default_value = 1.4
+        find_input(node, "Subsurface Weight").default_value = 0.0
+        find_input(node, "IOR").default_value = 1.4
     return node
 
 
-def _input(node, socket: str | int):
+def find_input(node, socket: str | int):
     """An input by number, identifier or name: a Principled BSDF hides the names of some sockets."""
     if isinstance(socket, int):
         return node.inputs[socket]
     by_identifier = {item.identifier: item for item in node.inputs}
-    return by_identifier.get(socket) or node.inputs[socket]
+    return by_identifier.get(socket) or node.inputs.get(socket)
 
 
-def _set_numbers(group, sampled: Sampled) -> None:
-    for node in _of_role(group, "mask"):
-        node.attribute_name = sampled.mask_attribute
-    for node in _of_role(group, "share"):
-        node.inputs[1].default_value = 0.0 if sampled.mask_attribute else 1.0
+def _set_numbers(group, sampled: Sampled, changes: Changes) -> None:
+    for node in of_role(group, "mask"):
+        changes.set(node, "attribute_name", sampled.mask_attribute)
+    for node in of_role(group, "share"):
+        changes.set(node.inputs[1], "default_value", 0.0 if sampled.mask_attribute else 1.0)
     columns, rows = sampled.colour.size
-    for node in _of_role(group, "column"):
-        _map_to_texels(node, 0.0, 1.0, columns)
-    for node in _of_role(group, "row"):
-        _map_to_texels(node, sampled.first_day, sampled.last_day, rows)
-    for node in _of_role(group, "colour"):
-        node.image = sampled.colour
-    for node in _of_role(group, "width"):
-        node.image = sampled.width
-    for node in _of_role(group, "radius"):
-        node.outputs[0].default_value = RADIUS_PER_MILLIMETRE / sampled.scene_unit
+    for node in of_role(group, "column"):
+        _map_to_texels(node, (0.0, 1.0), columns, changes)
+    for node in of_role(group, "row"):
+        _map_to_texels(node, (sampled.first_day, sampled.last_day), rows, changes)
+    for role, image in (("colour", sampled.colour), ("width", sampled.width)):
+        for node in of_role(group, role):
+            changes.set(node, "image", image)
+        changes.set_key(group, IMAGE_KEYS[role], image)
+    for node in of_role(group, "radius"):
+        radius = RADIUS_PER_MILLIMETRE / sampled.scene_unit
+        changes.set(node.outputs[0], "default_value", radius)
 
 
-def _map_to_texels(node, low: float, high: float, texels: int) -> None:
-    """Map low to the centre of the first texel and high to that of the last."""
-    node.inputs["From Min"].default_value, node.inputs["From Max"].default_value = low, high
-    node.inputs["To Min"].default_value = 0.5 / texels
-    node.inputs["To Max"].default_value = 1.0 - 0.5 / texels
+def _map_to_texels(node, ends: tuple[float, float], texels: int, changes: Changes) -> None:
+    """Map the ends to the centres of the first and the last texel."""
+    numbers = (*ends, 0.5 / texels, 1.0 - 0.5 / texels)
+    for name, number in zip(("From Min", "From Max", "To Min", "To Max"), numbers, strict=True):
+        changes.set(node.inputs[name], "default_value", number)
 
 
-def _set_profile(group, sampled: Sampled) -> None:
+def _set_profile(group, sampled: Sampled, changes: Changes) -> None:
     """Turn subsurface on or off, but only where the table brings a change: it may be edited."""
     if bool(group.get(PROFILE_KEY)) != sampled.has_profile:
-        for node in _of_role(group, "skin"):
-            _input(node, "Subsurface Weight").default_value = float(sampled.has_profile)
-    group[PROFILE_KEY] = sampled.has_profile
-
-
-def _is_of_first_version(tree) -> bool:
-    """Whether a group has the nodes that the first version made, which bear no roles."""
-    if LAYOUT_KEY in tree or tree.bl_idname != "ShaderNodeTree":
-        return False
-    present = {(node.bl_idname, node.label) for node in tree.nodes}
-    needed = ("day", "column", "row", "place", "colour")
-    return all((ROLES[role].kind, ROLES[role].label) in present for role in needed)
-
-
-def _take_over(group) -> None:
-    """Give the nodes of a group of the first version their roles, and add what it lacked."""
-    for role in FORMER_ROLES:
-        plan = ROLES[role]
-        for node in group.nodes:
-            if (node.bl_idname, node.label) == (plan.kind, plan.label):
-                node[ROLE_KEY] = role
-    for role in ("input", "output"):
-        for node in group.nodes:
-            if node.bl_idname == ROLES[role].kind:
-                node[ROLE_KEY] = role
-    for role in ("colour", "width"):
-        for node in _of_role(group, role):
-            if node.image is not None and node.image.name.startswith("Skin Tan "):
-                node.image[images.MARK] = True
-    group[PROFILE_KEY] = any(True for _ in _of_role(group, "width"))
-    _complete(group)
-    for node in list(group.nodes):
-        is_former_share = node.bl_idname == "ShaderNodeValue" and node.label == "Share"
-        if is_former_share and not node.outputs[0].is_linked:
-            group.nodes.remove(node)
+        for node in of_role(group, "skin"):
+            weight = find_input(node, "Subsurface Weight")
+            changes.set(weight, "default_value", float(sampled.has_profile))
+    changes.set_key(group, PROFILE_KEY, sampled.has_profile)

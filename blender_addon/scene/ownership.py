@@ -5,35 +5,9 @@ object shows may be changed in place. Where others show it too, the object gets 
 """
 
 from collections.abc import Iterable
-from types import TracebackType
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 import bpy
-
-Block = TypeVar("Block", bound=bpy.types.ID)
-
-
-class NewBlocks:
-    """Data-blocks made so far; where an exception ends the `with`, they are removed again."""
-
-    def __init__(self) -> None:
-        self._blocks: list[bpy.types.ID] = []
-
-    def add(self, block: Block) -> Block:
-        self._blocks.append(block)
-        return block
-
-    def __enter__(self) -> "NewBlocks":
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        if kind is not None:
-            bpy.data.batch_remove(self._blocks)
 
 
 class Users:
@@ -75,9 +49,14 @@ def _has_in_slot(obj: bpy.types.Object, material: bpy.types.ID) -> bool:
 
 
 def _is_only_remembered(obj: bpy.types.Object, block: bpy.types.ID) -> bool:
-    """Whether an object has a data-block in its settings from an earlier Apply and nowhere else."""
+    """Whether an object has a data-block in its settings from an earlier Apply and nowhere else.
+
+    Where geometry nodes could show it, they do: their inputs may hold a material.
+    """
     settings = remembered(obj)
-    return block in (settings.group, settings.material) and not _has_in_slot(obj, block)
+    return block in (settings.group, settings.material) and not (
+        _has_in_slot(obj, block) or any(modifier.type == "NODES" for modifier in obj.modifiers)
+    )
 
 
 def remembered(obj: bpy.types.Object) -> Any:

@@ -7,24 +7,52 @@ from bpy_extras.anim_utils import action_get_channelbag_for_slot
 
 from hylios.errors import InputError
 
+from .changes import Changes
 from .nodes import DAY_PROPERTY
-from .ownership import NewBlocks
 
 DATA_PATH = f'["{DAY_PROPERTY}"]'
+COORDINATES = ("co", "handle_left", "handle_right")
+"""Coordinates of a key and its handles."""
 
 
-def check_frames(first_frame: int, last_frame: int) -> None:
-    """Raise InputError unless the last frame comes after the first."""
-    if not last_frame > first_frame:
+def check_day_property(obj: bpy.types.Object) -> None:
+    """Refuse an object whose day cannot be keyed.
+
+    Raises
+    ------
+    InputError
+        In the NLA's tweak mode, in which Blender refuses another action, and where a property of
+        the artist's own has the name.
+    """
+    if obj.animation_data and obj.animation_data.use_tweak_mode:
         raise InputError(
-            f"last frame is {last_frame}; allowed is more than the first frame, {first_frame}."
+            f"The animation of {obj.name!r} is in tweak mode; leave tweak mode in the Nonlinear "
+            "Animation editor (Tab)."
         )
+    day = obj.get(DAY_PROPERTY, 0.0)
+    if not isinstance(day, int | float):
+        raise InputError(
+            f"The custom property {DAY_PROPERTY!r} of {obj.name!r} holds no number, and the day of "
+            "the tan needs that name; rename the property."
+        )
+
+
+def shown_day(obj: bpy.types.Object) -> float | None:
+    """The day that an object shows in this frame, if it has one."""
+    day = obj.get(DAY_PROPERTY)
+    return float(day) if isinstance(day, int | float) else None
+
+
+def is_driven(obj: bpy.types.Object) -> bool:
+    """Whether a driver governs the day, so that its keys have no effect."""
+    drivers: Any = obj.animation_data.drivers if obj.animation_data else ()
+    return any(driver.data_path == DATA_PATH and not driver.mute for driver in drivers)
 
 
 def key_days(
     obj: bpy.types.Object,
     scene: bpy.types.Scene,
-    blocks: NewBlocks,
+    changes: Changes,
     days: tuple[float, float],
     frames: tuple[int, int],
 ) -> None:
@@ -33,49 +61,107 @@ def key_days(
     Earlier keys of the day are replaced; other animation of the object is left alone, and so are
     other objects with the same action: this one gets a copy.
     """
-    action, slot = _own_action(obj, blocks)
-    curve, is_new = _curve(action, slot)
+    action, slot = _own_action(obj, changes)
+    curve, is_new = _curve(action, slot, changes)
+    changes.on_failure(_set_keys, curve, _keys(curve), curve.extrapolation)
     curve.keyframe_points.clear()
     curve.keyframe_points.add(len(days))
     for key, day, frame in zip(curve.keyframe_points, days, frames, strict=True):
         key.co, key.interpolation = (frame, day), "LINEAR"
     curve.extrapolation = "CONSTANT"
     curve.update()
-    obj[DAY_PROPERTY] = curve.evaluate(scene.frame_current_final)
-    cast(Any, obj).id_properties_ui(DAY_PROPERTY).update(description="Day of the tan", precision=2)
+    _set_day(obj, curve.evaluate(scene.frame_current_final), changes)
+    if obj.animation_data is None:
+        changes.on_failure(obj.animation_data_clear)
     animation = obj.animation_data or obj.animation_data_create()
     if is_new or (animation.action, animation.action_slot) != (action, slot):
         # The assignment has Blender sort out anew what follows what, which takes long in a large
         # scene; without, a strip of the NLA would go on covering a new action.
-        animation.action = action
-        animation.action_slot = slot
+        changes.on_failure(_assign, animation, animation.action, animation.action_slot)
+        _assign(animation, action, slot)
     action.update_tag()
     obj.update_tag()
 
 
+def _set_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
+    if DAY_PROPERTY in obj:
+        appearance = cast(Any, obj).id_properties_ui(DAY_PROPERTY)
+        changes.on_failure(_set_appearance, obj, appearance.as_dict())
+    changes.set_key(obj, DAY_PROPERTY, day)
+    _set_appearance(obj, {"description": "Day of the tan", "precision": 2})
+
+
+def _set_appearance(obj: bpy.types.Object, appearance: dict[str, Any]) -> None:
+    """How the sidebar shows the day."""
+    cast(Any, obj).id_properties_ui(DAY_PROPERTY).update(**appearance)
+
+
+def _assign(animation: Any, action: bpy.types.Action | None, slot: Any) -> None:
+    animation.action = action
+    if action is not None:
+        animation.action_slot = slot
+
+
+def _keys(curve: Any) -> dict[str, list[Any]]:
+    """All that can be set on the keys of a curve, by name."""
+    points = curve.keyframe_points
+    names = {rna.identifier for rna in bpy.types.Keyframe.bl_rna.properties if not rna.is_readonly}
+    keys: dict[str, list[Any]] = {
+        name: [getattr(point, name) for point in points] for name in names - {"co_ui", *COORDINATES}
+    }
+    for name in COORDINATES:
+        keys[name] = [0.0] * (2 * len(points))
+        points.foreach_get(name, keys[name])
+    return keys
+
+
+def _set_keys(curve: Any, keys: dict[str, list[Any]], extrapolation: str) -> None:
+    points = curve.keyframe_points
+    points.clear()
+    points.add(len(keys["co"]) // 2)
+    for name in set(keys) - set(COORDINATES):
+        for point, value in zip(points, keys[name], strict=True):
+            setattr(point, name, value)
+    # Last, and as arrays: what is set key by key moves handles.
+    for name in COORDINATES:
+        points.foreach_set(name, keys[name])
+    curve.extrapolation = extrapolation
+
+
 def _own_action(
-    obj: bpy.types.Object, blocks: NewBlocks
+    obj: bpy.types.Object, changes: Changes
 ) -> tuple[bpy.types.Action, bpy.types.ActionSlot]:
     """An action and a slot of it that move this object alone."""
     animation = obj.animation_data
     action = animation.action if animation else None
     slot = animation.action_slot if animation else None
     if action is None:
-        action = blocks.add(bpy.data.actions.new(f"{obj.name}Action"))
+        action = bpy.data.actions.new(f"{obj.name}Action")
         slot = None
     elif slot is not None and any(user != obj for user in slot.users()):
         identifier = slot.identifier
-        action = blocks.add(action.copy())
+        action = action.copy()
         slot = action.slots[identifier]
-    return action, slot or action.slots.new(id_type="OBJECT", name=obj.name)
+    if slot is None:
+        changes.may_add_to(action.slots)
+        slot = action.slots.new(id_type="OBJECT", name=obj.name)
+    return action, slot
 
 
-def _curve(action: bpy.types.Action, slot: bpy.types.ActionSlot) -> tuple[bpy.types.FCurve, bool]:
+def _curve(
+    action: bpy.types.Action, slot: bpy.types.ActionSlot, changes: Changes
+) -> tuple[bpy.types.FCurve, bool]:
     """The curve of the day, and whether it is new."""
     bag = action_get_channelbag_for_slot(action, slot)
     if bag is None:
+        changes.may_add_to(action.layers)
         layer = action.layers[0] if action.layers else action.layers.new("Layer")
+        changes.may_add_to(layer.strips)
         strip: Any = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+        changes.may_add_to(strip.channelbags)
         bag = strip.channelbag(slot, ensure=True)
     curve = bag.fcurves.find(DATA_PATH)
-    return curve or bag.fcurves.new(DATA_PATH), curve is None
+    if curve is not None:
+        return curve, False
+    changes.may_add_to(bag.fcurves)
+    return bag.fcurves.new(DATA_PATH), True

@@ -43,7 +43,7 @@ def draw_exposures(layout: bpy.types.UILayout, settings: SkinTanSettings) -> Non
     exposure = settings.exposures[min(settings.exposure_index, len(settings.exposures) - 1)]
     layout.prop(exposure, "unit")
     column = layout.column(align=True)
-    for names in FIELDS[exposure.unit]:
+    for names in FIELDS.get(exposure.unit, ()):  # a later version may know more units
         row = column.row(align=True)
         for name in names:
             row.prop(exposure, name)

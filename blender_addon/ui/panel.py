@@ -10,7 +10,7 @@ from ..model import summary
 from ..model.catalogue import FILE
 from ..ops.active import active_mesh
 from ..props import SkinTanSettings, settings_of
-from ..scene.nodes import DAY_PROPERTY
+from ..scene.timeline import shown_day
 from .exposures import draw_exposures
 from .lines import draw_lines
 
@@ -32,15 +32,16 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         settings = settings_of(obj)
         _draw_skin(_section(layout, "Skin"), settings)
         draw_exposures(_section(layout, "Time in the Sun"), settings)
-        _draw_mask(_section(layout, "Where the Sun Reaches"), obj)
+        _draw_mask(_section(layout, "Mask: Where the Sun Reaches"), obj)
         _draw_timeline(_section(layout, "Timeline"), settings)
         layout.separator()
         row = layout.row()
         row.scale_y = 1.5
         row.operator("skin_tan.apply", icon="MATERIAL")
         layout.operator("skin_tan.export_schedule", icon="EXPORT")
-        if DAY_PROPERTY in obj:
-            layout.label(text=f"This frame shows day {obj[DAY_PROPERTY]:.1f}", icon="TIME")
+        day = shown_day(obj)
+        if day is not None:
+            layout.label(text=f"This frame shows day {day:.1f}", icon="TIME")
 
 
 def _section(layout: bpy.types.UILayout, title: str) -> bpy.types.UILayout:

@@ -215,6 +215,60 @@ def test_linked_animation_is_refused(body, tmp_path):
     assert not bpy.data.images and "tan_day" not in body
 
 
+def test_an_override_is_called_so(body, tmp_path):
+    path = tmp_path / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
+        wanted.objects = ["Body"]
+    linked = bpy.data.objects["Body"]
+    bpy.context.collection.objects.link(linked)
+    override = linked.override_create(remap_local_usages=True)
+    bpy.context.view_layer.objects.active = override
+    refused("The object 'Body' is a library override")
+
+
+def test_the_nla_s_tweak_mode_is_refused(body):
+    body.keyframe_insert("location", frame=1)
+    animation = body.animation_data
+    track, action = animation.nla_tracks.new(), animation.action
+    strip = track.strips.new("walk", 1, action)
+    animation.action = None
+    strip.select, animation.nla_tracks.active = True, track
+    animation.use_tweak_mode = True
+    with pytest.raises(RuntimeError, match="The animation of 'Body' is in tweak mode; leave"):
+        apply()
+    assert list(bpy.data.actions) == [action] and "tan_day" not in body
+    assert not [*bpy.data.images, *bpy.data.materials, *bpy.data.node_groups]
+
+
+@pytest.mark.parametrize("value", ["Tuesday", [1.0, 2.0], {"a": 1}])
+def test_a_property_of_the_artist_s_own_with_the_day_s_name(body, value):
+    body["tan_day"] = value
+    refused("The custom property 'tan_day' of 'Body' holds no number")
+
+
+def test_a_driver_of_the_day_is_told(body, capfd):
+    body["tan_day"] = 0.0
+    body.driver_add('["tan_day"]').driver.expression = "5.0"
+    assert apply() == {"FINISHED"}
+    assert "A driver governs the day of the tan" in capfd.readouterr().out
+
+
+def test_an_empty_slot_for_others_with_the_mesh_is_told(body, capfd):
+    bpy.context.collection.objects.link(bpy.data.objects.new("Twin", body.data))
+    apply()
+    assert "Slots belong to the mesh, so 'Twin' got an empty one." in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["density", "color", "uv", "N", "velocity_x", "pointiness"])
+def test_a_mask_under_a_name_of_cycles_own(body, name):
+    body.data.attributes["sun"].name = name
+    assert body.data.attributes[name].data_type == "FLOAT"
+    body.skin_tan.mask_attribute = name
+    refused(f"The attribute {name!r} cannot be a mask: Cycles keeps that name for itself; rename")
+
+
 def test_missing_mask(body):
     body.skin_tan.mask_attribute = "shade"
     refused("no attribute 'shade'; float attributes of its points: sun")
@@ -236,12 +290,14 @@ def test_days_and_frames_out_of_order(body):
     settings.last_day = float("nan")
     refused("last day is nan; allowed is 0 to 366")
     settings.last_day, settings.last_frame = 9.0, 1
-    refused("last frame is 1; allowed is more than the first frame, 1")
+    refused("last frame is 1; allowed is more than the first frame, 1, to 1048574")
+    settings.last_day, settings.last_frame = 5.0, 2**31 - 1
+    assert settings.last_frame == 1048574
 
 
 def test_dose_that_is_no_number(body):
     body.skin_tan.exposures[0].dose = float("nan")
-    refused("dose of an exposure is nan SED; allowed is 0 to")
+    refused("dose of an exposure is nan SED; allowed is 0 to 1000 SED")
 
 
 def test_tables_that_cannot_be_used(body, table_path, tmp_path):
@@ -250,6 +306,8 @@ def test_tables_that_cannot_be_used(body, table_path, tmp_path):
     refused("No table is set")
     settings.table_path = str(tmp_path / "absent.exr")
     refused("absent.exr cannot be read: No such file")
+    settings.table_path = "//absent.exr"
+    refused("the table //absent.exr cannot be read: No such file")
     settings.table_path = str(tmp_path)
     refused("cannot be read: it is no regular file")
     text = tmp_path / "text.exr"
@@ -313,7 +371,7 @@ def test_a_unit_scale_that_is_no_length(body, scale):
 
 def test_minimal_doses_that_are_no_numbers(body):
     body.skin_tan.own_minimal_doses, body.skin_tan.mmd = True, float("nan")
-    refused("minimal tanning dose is nan SED; allowed is 0.001 to 1000 SED")
+    refused("minimal tanning dose is nan SED; allowed is 0.1 to 1000 SED")
 
 
 def test_without_a_window(body):

@@ -71,7 +71,10 @@ def test_thin_sunscreen_lets_through_the_root():
         ({"sunscreen": True, "spf": 0.5}, "SPF is 0.5; allowed is 1 to"),
         ({"dose": 1e308}, "dose of an exposure is 1e\\+308 SED; allowed is 0 to"),
         ({"dose": float("nan")}, "dose of an exposure is nan SED"),
-        ({"unit": "MMD", "multiple": 1e308}, "times the tanning dose is 1e\\+308; allowed is 0 to"),
+        (
+            {"unit": "MMD", "multiple": 1e308},
+            "number of tanning doses is 1e\\+308; allowed is 0 to",
+        ),
         ({"unit": "UV_INDEX", "uv_index": float("nan")}, "UV index is nan; allowed is 0 to 50"),
         ({"unit": "UV_INDEX", "duration": 1e308}, "duration is 1e\\+308 hours; allowed is 0 to"),
         ({"unit": "SUN", "from_hour": float("nan")}, "hour of sun is nan; allowed is 0 to 24"),

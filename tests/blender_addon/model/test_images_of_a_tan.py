@@ -99,9 +99,9 @@ def test_days_out_of_order(first_day, last_day, sentence):
 
 @pytest.mark.parametrize("dose", [0.0, -1.0, float("nan"), 1e308])
 def test_minimal_doses_by_hand_out_of_range(dose):
-    with pytest.raises(InputError, match="minimal tanning dose is .* allowed is 0.001 to 1000"):
+    with pytest.raises(InputError, match="minimal tanning dose is .* allowed is 0.1 to 1000"):
         own_minimal_doses(dose, 4.0)
-    with pytest.raises(InputError, match="minimal burn dose is .* allowed is 0.001 to 1000"):
+    with pytest.raises(InputError, match="minimal burn dose is .* allowed is 0.1 to 1000"):
         own_minimal_doses(4.0, dose)
 
 

@@ -49,7 +49,7 @@ def test_a_name_given_on(body, table_path):
     assert look(body) == before != look(second)
 
 
-@pytest.mark.parametrize("collection", ["materials", "node_groups", "images", "actions", "objects"])
+@pytest.mark.parametrize("collection", ["materials", "node_groups", "actions", "objects"])
 def test_what_is_renamed_is_found_again(body, collection):
     """And keeps the name that it was given."""
     for number, block in enumerate(getattr(bpy.data, collection)):
@@ -317,6 +317,52 @@ def test_a_group_of_a_newer_version_is_refused(body):
     with pytest.raises(RuntimeError, match="A newer version of this add-on made the node group"):
         apply(body)
     assert look(body) == before and len(bpy.data.images) == 2
+
+
+def artists_image(obj, how: str):
+    """An image that an artist has made his own, in the node that shows the tan's colour."""
+    image = of_role(obj, "colour").image
+    if how == "copied":
+        image = of_role(obj, "colour").image = image.copy()
+    elif how == "renamed":
+        image.name = "My tan"
+    elif how == "kept":
+        image.use_fake_user = True
+    else:
+        image = of_role(obj, "colour").image = bpy.data.images.new("Photo", 4, 4)
+    return image
+
+
+@pytest.mark.parametrize("how", ["copied", "renamed", "kept", "of another"])
+def test_an_artist_s_image_is_set_aside(body, capfd, how):
+    image = artists_image(body, how)
+    name, before = image.name, pixels(image)
+    for _ in range(2):
+        assert apply(body) == {"FINISHED"}
+    assert bpy.data.images[name] == image and image.use_fake_user
+    assert np.array_equal(pixels(image), before)
+    assert of_role(body, "colour").image != image
+    assert f"No longer shown but kept in the file: {name!r}." in capfd.readouterr().out
+    assert len(bpy.data.images) in (3, 4)  # one that no node showed before is left to Blender
+
+
+def test_a_material_in_an_input_of_geometry_nodes_stays_as_it_was(body):
+    """A duplicate has another material in its slot, and the tan's through a modifier."""
+    copy, before = full_duplicate(body), look(body)
+    copy.material_slots[0].material = bpy.data.materials.new("Plain")
+    tree = bpy.data.node_groups.new("Coat", "GeometryNodeTree")
+    tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    entry = tree.interface.new_socket("Skin", in_out="INPUT", socket_type="NodeSocketMaterial")
+    modifier = copy.modifiers.new("Coat", "NODES")
+    modifier.node_group = tree
+    modifier[entry.identifier] = shown = body.material_slots[0].material
+    body.skin_tan.exposures[0].dose = 8.0
+    apply(body)
+    assert modifier[entry.identifier] == shown != body.material_slots[0].material
+    body.material_slots[0].material, own = shown, body.material_slots[0].material
+    assert look(body) == before
+    body.material_slots[0].material = own
+    assert look(body) != before
 
 
 @pytest.mark.parametrize(

@@ -97,7 +97,7 @@ def test_with_every_setting(table_path):
 @pytest.mark.parametrize(
     ("unit", "line", "label"),
     [
-        ("MMD", "2 MMD", "9.8 SED: 1.4 h of strong summer sun"),
+        ("MMD", "2 tanning doses", "9.8 SED: 1.4 h of strong summer sun"),
         ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong summer sun"),
         ("SUN", "Sun 11-15 h", "29.3 SED: 4.1 h of strong summer sun"),
     ],
@@ -189,6 +189,26 @@ def test_a_shipped_table_that_is_damaged_is_told(tmp_path, monkeypatch):
     bpy.ops.mesh.primitive_cube_add()
     bpy.context.object.skin_tan.skin = "III"
     assert "This skin's table is damaged:" in drawn()
+
+
+@pytest.mark.parametrize("value", ["Tuesday", [1.0, 2.0], {"a": 1}, True, 3])
+def test_a_day_that_is_no_day_does_not_stop_the_panel(table_path, value):
+    tan_object(table_path)["tan_day"] = value
+    shown = [label for label in drawn() if label.startswith("This frame shows day")]
+    assert shown == ([f"This frame shows day {value:.1f}"] if isinstance(value, int) else [])
+
+
+def test_a_unit_of_a_later_version_does_not_stop_the_panel(table_path):
+    exposure = tan_object(table_path).skin_tan.exposures[0]
+    unknown(exposure)
+    labels = drawn()
+    assert "Unknown unit" in labels and "No dose: unit of an exposure is ''" in labels
+
+
+def unknown(exposure) -> None:
+    """Give an exposure a unit that this version does not know."""
+    stored = getattr(exposure, "bl_system_properties_get", lambda: exposure)()
+    stored["unit"] = 99
 
 
 @pytest.mark.parametrize("unit", ["SED", "MMD", "UV_INDEX", "SUN"])

@@ -1,0 +1,192 @@
+"""An exception in the midst of Apply, at any line, leaves the file as it was."""
+
+import inspect
+import sys
+from pathlib import Path
+
+import bpy
+import pytest
+from bpy_extras.anim_utils import action_get_channelbag_for_slot
+from scenes import add_mask, apply, look, tan_object
+
+import blender_addon.apply as module
+from blender_addon.scene import changes
+
+FILE = Path(__file__).parents[1] / "data" / "first_version.blend"
+ROOMS = ("blender_addon/scene/", "blender_addon/apply.py")
+COLLECTIONS = ("images", "materials", "node_groups", "actions", "meshes", "objects")
+
+
+SOURCE, FIRST_LINE = inspect.getsourcelines(module.apply_tan)
+WITH_LINE = FIRST_LINE + SOURCE.index("    with Changes() as changes:\n")
+
+
+class StoppedError(Exception):
+    """What a test raises."""
+
+
+def stopped_at(number: int, obj) -> bool:
+    """Apply with an exception before the n-th line of the add-on's; whether it came so far."""
+    count = 0
+
+    def trace(frame, event, argument):
+        nonlocal count
+        path = frame.f_code.co_filename.replace("\\", "/")
+        # What undoes the changes, or ends them, is not interrupted.
+        if not any(room in path for room in ROOMS) or frame.f_code.co_name == "__exit__":
+            return None
+        # Python comes back to the line of the `with` on its way to `__exit__`.
+        is_with = frame.f_code.co_name == "apply_tan" and frame.f_lineno == WITH_LINE
+        if event == "line" and not is_with:
+            count += 1
+            if count == number:
+                sys.settrace(None)
+                raise StoppedError
+        return trace
+
+    former = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        module.apply_tan(obj, bpy.context.scene)
+    except StoppedError:
+        return True
+    finally:
+        sys.settrace(former)
+    return False
+
+
+def inventory() -> dict:
+    """All that Apply might change."""
+    blocks = [block for name in COLLECTIONS for block in getattr(bpy.data, name)]
+    found = {block: (block.name, block.users, block.use_fake_user) for block in blocks}
+    return {
+        "blocks": found,
+        "trees": {group: contents(group) for group in bpy.data.node_groups},
+        "materials": {block: contents(block.node_tree) for block in bpy.data.materials},
+        "objects": {obj: of_object(obj) for obj in bpy.data.objects},
+        "actions": {action: of_action(action) for action in bpy.data.actions},
+    }
+
+
+def contents(tree) -> tuple:
+    nodes = [
+        (
+            node.name,
+            dict(node.items()),
+            getattr(node, "image", None),
+            getattr(node, "node_tree", None),
+            getattr(node, "attribute_name", None),
+            [plain(getattr(end, "default_value", None)) for end in (*node.inputs, *node.outputs)],
+        )
+        for node in tree.nodes
+    ]
+    links = {
+        (link.from_socket.path_from_id(), link.to_socket.path_from_id()) for link in tree.links
+    }
+    return nodes, links, dict(tree.items())
+
+
+def plain(value):
+    return tuple(value) if hasattr(value, "__len__") else value
+
+
+def of_object(obj) -> tuple:
+    animation, settings = obj.animation_data, obj.skin_tan
+    slots = [(slot.link, slot.material) for slot in obj.material_slots]
+    animated = animation and (animation.action, animation.action_slot)
+    shown = obj.id_properties_ui("tan_day").as_dict() if "tan_day" in obj else None
+    return slots, animated, settings.group, settings.material, obj.get("tan_day"), shown
+
+
+def of_action(action) -> list:
+    slots = [slot.identifier for slot in action.slots]
+    bags = [action_get_channelbag_for_slot(action, slot) for slot in action.slots if action.layers]
+    curves = [
+        (curve.data_path, curve.extrapolation, [key_values(key) for key in curve.keyframe_points])
+        for bag in bags
+        if bag is not None
+        for curve in bag.fcurves
+    ]
+    return [slots, len(action.layers), curves]
+
+
+def key_values(key) -> tuple:
+    return (*key.co, key.handle_left_type, key.handle_right_type, key.interpolation, key.easing)
+
+
+def new(table_path):
+    """An object with a material and an animation of the artist's own."""
+    obj = tan_object(table_path)
+    obj.data.materials.append(bpy.data.materials.new("Mine"))
+    obj.keyframe_insert("location", frame=3)
+    return obj
+
+
+def again(table_path):
+    """After an Apply, with keys that the artist retimed."""
+    obj = tan_object(table_path)
+    apply(obj)
+    animation = obj.animation_data
+    bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
+    key = bag.fcurves.find('["tan_day"]').keyframe_points[0]
+    key.interpolation, key.easing = "BACK", "EASE_OUT"
+    obj.skin_tan.last_frame, obj.skin_tan.last_day = 99, 10.0
+    add_mask(obj, [1.0] * 4)
+    return obj
+
+
+def shared(table_path):
+    """A linked duplicate of an object with a tan."""
+    obj = tan_object(table_path)
+    apply(obj)
+    copy = obj.copy()
+    bpy.context.collection.objects.link(copy)
+    copy.skin_tan.last_day = 10.0
+    return copy
+
+
+def without_slots(table_path):
+    """Of two objects with a mesh that has no material slot."""
+    obj = tan_object(table_path)
+    bpy.context.collection.objects.link(bpy.data.objects.new("Twin", obj.data))
+    return obj
+
+
+def of_first_version(table_path):
+    bpy.ops.wm.open_mainfile(filepath=str(FILE))
+    twin = bpy.data.objects["Twin"]
+    twin.skin_tan.exposures[0].dose = 5.0
+    return twin
+
+
+@pytest.mark.parametrize("scene", [new, again, shared, without_slots, of_first_version])
+def test_an_exception_anywhere(table_path, monkeypatch, scene):
+    obj = scene(table_path)
+    tan = module.tan_of(obj.skin_tan.values())
+    monkeypatch.setattr(module, "tan_of", lambda values: tan)
+    bpy.context.view_layer.update()
+    before, number = inventory(), 1
+    seen = look(obj) if bpy.data.images else b""
+    while stopped_at(number, obj):
+        assert inventory() == before, f"after line {number}"
+        number += STEP
+    assert number > 100
+    assert inventory() != before
+    assert look(obj) != seen
+
+
+STEP = 17
+"""Every so many lines; with 1 the tests take minutes."""
+
+
+def test_what_cannot_be_undone_waits_for_the_end():
+    image = bpy.data.images.new("Former", 4, 4)
+    with pytest.raises(StoppedError), changes.Changes() as undone:
+        undone.at_the_end(lambda: bpy.data.images.remove(image))
+        undone.set(image, "name", "Changed")
+        bpy.data.images.new("Made", 4, 4)
+        raise StoppedError
+    assert [image.name for image in bpy.data.images] == ["Former"]
+    with changes.Changes() as done:
+        done.at_the_end(lambda: bpy.data.images.remove(image))
+    assert not bpy.data.images

@@ -35,7 +35,7 @@ class Parser(argparse.ArgumentParser):
         self.register("type", float, plain_number)
         self.register("type", int, plain_whole)
 
-    def parse_args(self, args=None, namespace=None):
+    def parse_args(self, args=None, namespace=None):  # pyright: ignore[reportIncompatibleMethodOverride]
         """The arguments; ends the process with status 2 and a sentence where one is missing."""
         given = sys.argv[1:] if args is None else args
         for before, text in zip(["", *given], given, strict=False):

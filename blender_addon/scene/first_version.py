@@ -91,31 +91,31 @@ def _put_share_in(group: Any, recognised: dict[str, list[Any]], changes: Changes
 
 def _recognised(group: Any) -> dict[str, list[Any]]:
     """Nodes of the first version by their roles; of a role, those with its label come first."""
-    found: dict[str, list[Any]] = {}
+    nodes_by_role: dict[str, list[Any]] = {}
 
     def look_for(role: str, is_linked_so: Callable[[Any], bool]) -> None:
         labelled = _labelled(group, ROLES[role].kind, ROLES[role].label)
         nodes = labelled or [node for node in _of_kind(group, role) if is_linked_so(node)]
         if nodes:
-            found[role] = nodes
+            nodes_by_role[role] = nodes
 
     def is_of(role: str) -> Callable[[Any], bool]:
-        return lambda node: node in found.get(role, ())
+        return lambda node: node in nodes_by_role.get(role, ())
 
     look_for("day", lambda node: node.attribute_name == DAY_PROPERTY)
     look_for("row", lambda node: _is_fed(node, "Value", is_of("day")))
     look_for("place", lambda node: _is_fed(node, "Y", is_of("row")))
-    place = found.get("place", [])
+    place = nodes_by_role.get("place", [])
     look_for("column", lambda node: any(_is_fed(end, "X", node.__eq__) for end in place))
-    look_for("mask", lambda node: _feeds(node, found.get("column", ()), "Value"))
+    look_for("mask", lambda node: _feeds(node, nodes_by_role.get("column", ()), "Value"))
     for role in IMAGE_NAMES:
         look_for(
             role,
             lambda node, role=role: _is_fed(node, "Vector", is_of("place")) and _is(node, role),
         )
     look_for("skin", lambda node: _is_fed(node, "Base Color", is_of("colour")))
-    look_for("radius", lambda node: _feeds(node, found.get("skin", ()), "Subsurface Scale"))
-    return found
+    look_for("radius", lambda node: _feeds(node, nodes_by_role.get("skin", ()), "Subsurface Scale"))
+    return nodes_by_role
 
 
 def _of_kind(group: Any, role: str) -> list[Any]:

@@ -116,14 +116,12 @@ def states_at(
     Returns
     -------
     (..., T, 4) array
-        Melanin of basale, spinosum, granulosum relative to the total without sun, and thickness
-        relative to that without sun.
+        Melanin of basale, spinosum, granulosum over the total without sun, and relative thickness.
 
     Raises
     ------
     InputError
-        If those are no exposures, a minimal dose is not positive, or a time or the step is out of
-        range.
+        If exposures, a minimal dose, a time or the step cannot be used.
     """
     require_exposures(exposures)
     require_range("MMD", mmd, 1e-6, 1e6, "SED")

@@ -179,8 +179,8 @@ def test_an_editor_knows_the_types_of_the_readmes_lines(tmp_path):
         json.dumps({"typeCheckingMode": "standard", "extraPaths": [str(ROOT)]})
     )
     command = [checker, "-p", tmp_path, "--pythonpath", sys.executable, "--outputjson"]
-    found = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
-    said = json.loads(found.stdout)["generalDiagnostics"]
+    output = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    said = json.loads(output.stdout)["generalDiagnostics"]
     assert [one["message"] for one in said if one["severity"] == "error"] == []
     types = [one["message"] for one in said if one["severity"] == "information"]
     assert len(types) == len(shown)

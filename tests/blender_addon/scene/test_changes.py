@@ -58,9 +58,9 @@ def stopped_at(number: int, obj) -> bool:
 def inventory() -> dict:
     """All that Apply might change."""
     blocks = [block for name in COLLECTIONS for block in getattr(bpy.data, name)]
-    found = {block: (block.name, block.users, block.use_fake_user) for block in blocks}
+    records = {block: (block.name, block.users, block.use_fake_user) for block in blocks}
     return {
-        "blocks": found,
+        "blocks": records,
         "trees": {group: contents(group) for group in bpy.data.node_groups},
         "materials": {block: contents(block.node_tree) for block in bpy.data.materials},
         "objects": {obj: of_object(obj) for obj in bpy.data.objects},

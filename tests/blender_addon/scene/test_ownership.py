@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import add_mask, apply, look, of_role, pixels, tan_object
+from scenes import apply, look, of_role, pixels, tan_object
 
 from blender_addon.scene import images, materials, nodes, timeline
 
@@ -397,26 +397,3 @@ def test_an_exception_leaves_all_as_it_was(table_path, monkeypatch, module, name
 def inventory() -> list[str]:
     collections = ("materials", "node_groups", "images", "actions", "meshes", "objects")
     return [repr(block) for name in collections for block in getattr(bpy.data, name)]
-
-
-def test_without_and_with_a_mask(body):
-    """Adding one and taking it away again, in the nodes that are there."""
-    count = len(body.skin_tan.group.nodes)
-    share = of_role(body, "share").inputs[1]
-    assert share.default_value == 1.0
-    add_mask(body, np.zeros(4))
-    apply(body)
-    assert of_role(body, "mask").attribute_name == "sun" and share.default_value == 0.0
-    body.skin_tan.mask_attribute = ""
-    apply(body)
-    assert of_role(body, "mask").attribute_name == "" and share.default_value == 1.0
-    assert len(body.skin_tan.group.nodes) == count
-
-
-def test_images_are_those_of_the_model(body, table_path):
-    """Float for float, after they were read back from the packed file."""
-    from blender_addon.model.tan import tan_of
-
-    expected = tan_of(body.skin_tan.values())
-    assert np.array_equal(pixels(of_role(body, "colour").image)[..., :3], expected.colour)
-    assert np.array_equal(pixels(of_role(body, "width").image)[..., :3], expected.profile_width)

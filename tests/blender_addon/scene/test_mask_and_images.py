@@ -1,0 +1,35 @@
+"""The images and the mask of a tan are those of its settings."""
+
+import numpy as np
+import pytest
+from scenes import add_mask, apply, of_role, pixels, tan_object
+
+
+@pytest.fixture
+def body(table_path):
+    obj = tan_object(table_path)
+    apply(obj)
+    return obj
+
+
+def test_without_and_with_a_mask(body):
+    """Adding one and taking it away again, in the nodes that are there."""
+    count = len(body.skin_tan.group.nodes)
+    share = of_role(body, "share").inputs[1]
+    assert share.default_value == 1.0
+    add_mask(body, np.zeros(4))
+    apply(body)
+    assert of_role(body, "mask").attribute_name == "sun" and share.default_value == 0.0
+    body.skin_tan.mask_attribute = ""
+    apply(body)
+    assert of_role(body, "mask").attribute_name == "" and share.default_value == 1.0
+    assert len(body.skin_tan.group.nodes) == count
+
+
+def test_images_are_those_of_the_model(body, table_path):
+    """Float for float, after they were read back from the packed file."""
+    from blender_addon.model.tan import tan_of
+
+    expected = tan_of(body.skin_tan.values())
+    assert np.array_equal(pixels(of_role(body, "colour").image)[..., :3], expected.colour)
+    assert np.array_equal(pixels(of_role(body, "width").image)[..., :3], expected.profile_width)

@@ -109,3 +109,18 @@ def render(path: Path, *, width: int, height: int, samples: int = 1) -> np.ndarr
 
 def read_pixels(path: Path) -> np.ndarray:
     return np.asarray(OpenImageIO.ImageBuf(str(path)).get_pixels(OpenImageIO.FLOAT))[..., :3]
+
+
+def set_modifier_input(modifier, identifier: str, value):
+    """Set an input of a geometry-nodes modifier, which is a property of its own from 5.2 on."""
+    if bpy.app.version >= (5, 2, 0):
+        getattr(modifier.properties.inputs, identifier).value = value
+    else:
+        modifier[identifier] = value
+
+
+def modifier_input(modifier, identifier: str):
+    """What an input of a geometry-nodes modifier holds."""
+    if bpy.app.version >= (5, 2, 0):
+        return getattr(modifier.properties.inputs, identifier).value
+    return modifier[identifier]

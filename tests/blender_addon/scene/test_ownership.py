@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import apply, look, of_role, pixels, tan_object
+from scenes import apply, look, modifier_input, of_role, pixels, set_modifier_input, tan_object
 
 from blender_addon.scene import images, materials, nodes, timeline
 
@@ -355,10 +355,11 @@ def test_a_material_in_an_input_of_geometry_nodes_stays_as_it_was(body):
     entry = tree.interface.new_socket("Skin", in_out="INPUT", socket_type="NodeSocketMaterial")
     modifier = copy.modifiers.new("Coat", "NODES")
     modifier.node_group = tree
-    modifier[entry.identifier] = shown = body.material_slots[0].material
+    shown = body.material_slots[0].material
+    set_modifier_input(modifier, entry.identifier, shown)
     body.skin_tan.exposures[0].dose = 8.0
     apply(body)
-    assert modifier[entry.identifier] == shown != body.material_slots[0].material
+    assert modifier_input(modifier, entry.identifier) == shown != body.material_slots[0].material
     body.material_slots[0].material, own = shown, body.material_slots[0].material
     assert look(body) == before
     body.material_slots[0].material = own

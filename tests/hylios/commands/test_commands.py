@@ -94,7 +94,7 @@ def test_tan_prints_every_hour(capsys):
         ("reflectance --set name=Ada", "the name of a specimen is no parameter"),
         ("reflectance --specimen none.toml", "none.toml cannot be read: No such file"),
         ("specimen S7", "there is no specimen 'S7'; there are S1, S2, S3, S4, I,"),
-        ("specimen --set basale_thickness=", "basale_thickness is ''; expected a number."),
+        ("specimen --set basale_thickness=", "'basale_thickness='; expected NAME=VALUE."),
         ("reflectance --wavelengths 700:400:5", "expected FIRST:LAST:STEP"),
         ("reflectance --wavelengths 200", "allowed is 250 to 2500 nm"),
         ("reflectance --angle 91", "allowed is 0 to 89.99 degrees"),

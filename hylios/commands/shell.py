@@ -332,9 +332,7 @@ def plain_number(text: str) -> float:
     ValueError
         If the text is none.
     """
-    if "_" in text:
-        raise ValueError(f"there is an underscore in {text!r}")
-    return float(text)
+    return float(_without_underscore(text))
 
 
 def plain_whole(text: str) -> int:
@@ -345,6 +343,10 @@ def plain_whole(text: str) -> int:
     ValueError
         If the text is none.
     """
+    return int(_without_underscore(text))
+
+
+def _without_underscore(text: str) -> str:
     if "_" in text:
         raise ValueError(f"there is an underscore in {text!r}")
-    return int(text)
+    return text

@@ -26,7 +26,7 @@ class TanningHistory:
     darkest on day 11
     """
 
-    hours: NDArray[np.float64]
+    hours: NDArray[np.floating]
     melanin: NDArray[np.float64]
     thickness: NDArray[np.float64]
 

@@ -22,13 +22,18 @@ def folder(tmp_path):
     return tmp_path
 
 
-def shell(folder, command, **variables):
+def shell(folder, command, given=None, **variables):
     """What a shell's command ends with: status, standard output and error as bytes."""
     root = str(Path(__file__).parents[3])
     environment = {**os.environ, "PYTHONPATH": root, **variables}
     command = command.replace("hylios ", f"{HYLIOS} ", 1)
     return subprocess.run(
-        ["sh", "-c", command], cwd=folder, capture_output=True, env=environment, timeout=120
+        ["sh", "-c", command],
+        cwd=folder,
+        capture_output=True,
+        env=environment,
+        input=given,
+        timeout=120,
     )
 
 
@@ -112,20 +117,24 @@ def test_a_fifo_or_an_endless_file_is_refused_at_once(folder):
     assert b"standard input cannot be read: it has more than 16777216" in ended.stderr
 
 
-def test_excels_padding_marks_and_utf_16_on_standard_input(folder):
+def test_excels_padding_marks_and_utf_16_on_standard_input(folder, monkeypatch, capsys):
     """The same colour by path and by standard input, with and without a byte-order mark."""
     rows = [f"{400 + 10 * step},{0.2 + step / 75:.4f}" for step in range(31)]
     text = "\n".join(["wavelength_nm,total", *rows, ",", ","]) + "\n"
-    said = set()
+    ended = shell(folder, "hylios swatch - -o s.png", text.encode("utf-16"))
+    assert ended.returncode == 0, ended.stderr
+    said = {ended.stdout.decode().split()[-1]}
+    monkeypatch.chdir(folder)
     for encoding in ("utf-8", "utf-8-sig", "utf-16"):
         (folder / "arm.csv").write_bytes(text.encode(encoding))
-        for command in ("swatch arm.csv", "swatch - < arm.csv"):
-            ended = shell(folder, f"hylios {command} --force -o s.png")
-            assert ended.returncode == 0, ended.stderr
-            said.add(ended.stdout.split()[-1])
+        for source in ("arm.csv", "-"):
+            with (folder / "arm.csv").open() as standard_input:
+                monkeypatch.setattr(sys, "stdin", standard_input)
+                assert main(["swatch", source, "--force", "-o", "s.png"]) == 0
+            said.add(capsys.readouterr().out.split()[-1])
     assert len(said) == 1
     pixel = np.round(255 * imread(folder / "s.png")[0, 0, :3]).astype(int)
-    assert "#{:02x}{:02x}{:02x}".format(*pixel).encode() in said
+    assert "#{:02x}{:02x}{:02x}".format(*pixel) in said
 
 
 def test_a_colour_of_0_to_1_is_not_taken_for_one_of_0_to_255(folder):

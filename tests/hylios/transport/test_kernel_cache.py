@@ -122,6 +122,7 @@ def test_without_standard_error_nothing_is_said(folder, capfd, monkeypatch):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_a_command_gives_the_same_csv_where_nothing_can_be_written(tmp_path, capsys):
     """No file may grow there: what a full disk does, without one."""
     arguments = ["reflectance", "--wavelengths", "550", "--rays", "100"]

@@ -5,7 +5,13 @@ import sys
 
 import pytest
 
-COMMANDS = ("bench", "demo", "simplifications", "simplifications.quadrature")
+COMMANDS = [
+    "demo",
+    *(
+        pytest.param(command, marks=pytest.mark.slow)
+        for command in ("bench", "simplifications", "simplifications.quadrature")
+    ),
+]
 """Those without a parser of options that their other tests use."""
 
 

@@ -104,6 +104,7 @@ def test_the_swimsuit_covers_the_seat_and_leaves_the_back_and_arms_bare():
     assert np.all(bare > 0.0)
 
 
+@pytest.mark.slow
 def test_suzanne_wears_a_band_whose_edge_her_mesh_can_hold():
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     subject = scene.suzanne()

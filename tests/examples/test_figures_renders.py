@@ -52,6 +52,7 @@ def seen(name, lightness, shine=(0.3, 0.3)):
     )
 
 
+@pytest.mark.slow
 def test_the_figures_are_listed_without_blender():
     code = "import sys, examples.figures.__main__; sys.exit('bpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
@@ -286,6 +287,7 @@ def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
     assert np.ptp(uv.readings, axis=1).max() < 1e-6  # grey
 
 
+@pytest.mark.slow
 def test_blender_that_fails_is_told_in_a_sentence(tmp_path):
     wanted = shots.named(["6.27 day 0"])  # whose table is not there
     with pytest.raises(InputError, match="could not render the figures .status 2."):

@@ -71,8 +71,8 @@ def test_without_absorbers_all_light_comes_back(name, nodes):
         ("S2", "individual", 64),
         ("S4", "individual", 64),
         ("S4", "complexes", 100),
-        ("S2", "individual", 140),
-        ("S2", "individual", 200),
+        pytest.param("S2", "individual", 140, marks=pytest.mark.slow),
+        pytest.param("S2", "individual", 200, marks=pytest.mark.slow),
     ],
 )
 def test_without_absorbers_all_light_comes_back_with_many_nodes(name, arrangement, nodes):

@@ -88,6 +88,7 @@ def test_an_empty_name_of_the_output_is_refused(folder, command):
     )
 
 
+@pytest.mark.slow
 def test_too_many_squares_are_refused_before_any_work(folder):
     ended = shell(folder, f"hylios swatch {'arm.csv ' * 300} --size 4096 -o s.png")
     assert ended.returncode == 2
@@ -207,6 +208,7 @@ def test_parts_of_an_argument_are_as_people_write_them(arguments, sentence, caps
     assert capsys.readouterr().err.startswith(f"error: {sentence}")
 
 
+@pytest.mark.slow
 def test_a_full_standard_error_loses_no_csv(folder):
     command = "hylios dose --sun 2025-06-21:12-13 --latitude 50"
     whole, without = shell(folder, command), shell(folder, f"{command} 2>/dev/full")

@@ -72,6 +72,7 @@ def test_a_colour_is_met_and_leaves_the_rest_open():
     assert fit.specimen.reticular_water == pytest.approx(S3.reticular_water, rel=0.05)
 
 
+@pytest.mark.slow
 def test_every_group_stays_within_physiology():
     fit = fit_spectrum(S3, VISIBLE[::2], np.full(8, 0.95))
     for name in (parameter.name for parameter in parameters()):

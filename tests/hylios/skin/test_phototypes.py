@@ -133,6 +133,7 @@ def test_type_1_makes_no_melanin_but_thickens():
     assert 1.0 < largest_change(skin, history) < 1.5
 
 
+@pytest.mark.slow
 def test_darker_skin_needs_more_sun_for_the_first_visible_change():
     """The least dose whose largest change reaches 1 CIEDE2000, from 0.98 to 1.05 MMD in each type,
     rises from II to VI."""

@@ -90,6 +90,7 @@ def made(target, *arguments):
     )
 
 
+@pytest.mark.slow
 def test_two_workers_make_the_same_bytes_though_one_is_killed(started, tmp_path):
     lost, _ = started.worker(), started.worker()
     local, spread = tmp_path / "local.bin", tmp_path / "spread.bin"
@@ -109,6 +110,7 @@ def test_two_workers_make_the_same_bytes_though_one_is_killed(started, tmp_path)
     assert sorted(os.listdir(tmp_path)) == ["cluster", "local.bin", "spread.bin"]
 
 
+@pytest.mark.slow
 def test_ctrl_c_takes_the_units_back_and_local_processes_can_go_on(started, tmp_path):
     started.worker()
     target, folder = tmp_path / "t.bin", tmp_path / "t.bin.unfinished"

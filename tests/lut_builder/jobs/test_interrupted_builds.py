@@ -33,6 +33,7 @@ def killed(tmp_path, kills, undisturbed):
     return done
 
 
+@pytest.mark.slow
 def test_killed_and_resumed(tmp_path, undisturbed):
     assert killed(tmp_path, 1, undisturbed) == 1
 
@@ -42,6 +43,7 @@ def test_killed_at_20_random_moments_and_resumed(tmp_path, undisturbed):
     assert killed(tmp_path, 20, undisturbed) > 3
 
 
+@pytest.mark.slow
 def test_threads_do_not_change_the_file(tmp_path, monkeypatch, undisturbed):
     """In two other processes."""
     monkeypatch.setattr("lut_builder.commands.build.SHORT", 0.0)

@@ -110,6 +110,7 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path, processes):
     assert not target.exists()
 
 
+@pytest.mark.slow
 def test_ctrl_c_while_processes_start_is_quiet(tmp_path):
     """At moments from the first sign of life on; nothing is kept, so nothing is said of it."""
     target = tmp_path / "t.bin"
@@ -154,7 +155,7 @@ def killed_file(tmp_path, *, kills, processes, count, pause):
     return whole.read_bytes(), killed.read_bytes()
 
 
-@pytest.mark.parametrize("kills", [5, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("kills", [2, pytest.param(20, marks=pytest.mark.slow)])
 def test_killed_at_random_moments_and_resumed_the_file_is_the_same_bytes(tmp_path, kills):
     whole, killed = killed_file(tmp_path, kills=kills, processes=1, count=70, pause=0.02)
     assert killed == whole

@@ -15,8 +15,8 @@ import numpy as np
 
 import blender_addon
 from blender_addon.apply import apply_tan
-from examples.demo import __main__ as demo
 from examples.demo import render, scene
+from examples.demo import tan_lines as demo
 from examples.demo.body import BodyUnavailableError, fetch_wheel
 from examples.figures import shots
 from examples.figures.pixel_readings import Taken, readings, regions, shine, sun_distance

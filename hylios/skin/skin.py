@@ -36,6 +36,10 @@ UNTANNED = {
 lays it out by the tanning set, or the specimen itself. The same where the specimen's melanin lies
 as the set's, as in `hylios.skin.phototypes`."""
 
+MOST_BLOOD, ADDED_OXYGENATED = 12.0, 97.0
+"""Most blood relative to the untanned skin's, and oxygenated share in % of what is added: arterial.
+A proposal for flush and sunburn, marked ESTIMATE: in the thesis blood does not change."""
+
 _PER_LAYER = ("production", "transfer", "extra_production", "extra_transfer")
 
 
@@ -143,22 +147,28 @@ class Skin:
     def at(self, state: ArrayLike) -> Specimen:
         """The specimen in a tanning state; see `hylios.skin.specimen.tanned`.
 
+        Blood scales both layers of the dermis alike, and what is added is arterial: of m times
+        the blood, (S + `ADDED_OXYGENATED` (m - 1)) / m % is oxygenated where the specimen's own
+        S % is.
+
         Parameters
         ----------
-        state : (4,) array
-            Melanin of basale, spinosum, granulosum relative to the total without sun, and
-            thickness relative to that without sun.
+        state : (4,) or (5,) array
+            Melanin of basale, spinosum, granulosum relative to the total without sun, thickness
+            relative to that without sun, and blood relative to the specimen's, 1 to `MOST_BLOOD`;
+            1 where it is left out.
 
         Raises
         ------
         InputError
             If the state has another shape, or one of its numbers is out of range.
         """
-        return tanned(self.specimen, *_parts(state), self._kept)
+        melanin, thickness, blood = _parts(state)
+        return _flushed(tanned(self.specimen, melanin, thickness, self._kept), blood)
 
     def overfull(self, state: ArrayLike) -> bool:
-        """Whether `at` cuts melanin in a state (4,) because it would overfill a layer."""
-        return overfull(self.specimen, *_parts(state), self._kept)
+        """Whether `at` cuts melanin in a state, as it takes them, that would overfill a layer."""
+        return overfull(self.specimen, *_parts(state)[:2], self._kept)
 
     def states(
         self, exposures: Exposures, times: ArrayLike, *, step: int = 1
@@ -185,12 +195,28 @@ class Skin:
         return self.untanned_melanin if self.untanned == "own" else None
 
 
-def _parts(state: ArrayLike) -> tuple[np.ndarray, float]:
-    """Melanin (3,) and thickness of a tanning state (4,)."""
+def _parts(state: ArrayLike) -> tuple[np.ndarray, float, float]:
+    """Melanin (3,), thickness and blood of a tanning state (4,) or (5,)."""
     numbers = as_numbers("tanning state", state)
-    if numbers.shape != (4,):
-        raise InputError(f"a tanning state has shape {numbers.shape}; expected (4,).")
-    return numbers[:3], float(numbers[3])
+    if numbers.shape not in {(4,), (5,)}:
+        raise InputError(f"a tanning state has shape {numbers.shape}; expected (4,) or (5,).")
+    blood = float(numbers[4]) if numbers.size == 5 else 1.0
+    if not 1.0 - 1e-9 <= blood <= MOST_BLOOD * (1.0 + 1e-9):
+        raise InputError(f"relative blood is {blood:g}; allowed is 1 to {MOST_BLOOD:g}.")
+    return numbers[:3], float(numbers[3]), blood
+
+
+def _flushed(specimen: Specimen, blood: float) -> Specimen:
+    """The specimen with `blood` times its blood."""
+    if blood == 1.0:
+        return specimen
+    added = ADDED_OXYGENATED * (blood - 1.0)
+    return replace(
+        specimen,
+        papillary_blood=blood * specimen.papillary_blood,
+        reticular_blood=blood * specimen.reticular_blood,
+        oxygenated_blood=min((specimen.oxygenated_blood + added) / blood, 100.0),
+    )
 
 
 def varied(dynamics: MelaninDynamics, values: Mapping[str, float]) -> MelaninDynamics:

@@ -6,7 +6,7 @@ import numpy as np
 
 from hylios.errors import InputError
 
-STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness")
+STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness", "blood")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 
 LARGEST_COORDINATE = 30.0

@@ -72,7 +72,7 @@ MEANINGS = {
         "the state that these numbers are of, and within: how far from a state what is looked up "
         "here may lie, in each of the four, for the table to hold that state",
         AXIS_UNIT,
-        components=(*STATE_NAMES, "within"),
+        components=(*STATE_NAMES[:4], "within"),
         low=-LARGEST_COORDINATE,
         high=LARGEST_COORDINATE,
     ),

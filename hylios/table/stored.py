@@ -112,7 +112,7 @@ def _header(table: SkinTable, planes: dict[str, Any]) -> dict[str, Any]:
         "format_version": FORMAT_VERSION,
         "interpolation": table.interpolation,
         "axes": {
-            "state": list(STATE_NAMES),
+            "state": list(STATE_NAMES[:4]),
             "untanned": table.axes.untanned.tolist(),
             "list": [
                 {

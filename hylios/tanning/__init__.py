@@ -15,6 +15,7 @@ from hylios.tanning.dynamics import (
 )
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
 from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
+from hylios.tanning.spread import Spread, spread_of
 from hylios.tanning.tanning_history import TanningHistory
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "TYPICAL_PIGMENTATION",
     "Exposures",
     "MelaninDynamics",
+    "Spread",
     "TanningHistory",
     "ThicknessDynamics",
     "hill",
@@ -31,5 +33,6 @@ __all__ = [
     "minimal_melanogenesis_dose",
     "simulate",
     "simulate_in_parts",
+    "spread_of",
     "states_at",
 ]

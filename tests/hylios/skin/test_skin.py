@@ -157,7 +157,28 @@ def test_a_skin_knows_its_doses():
     assert skin.at(expected[2]) == tanned(SPECIMENS["S3"], melanin, thickness)
 
 
-@pytest.mark.parametrize("state", [np.ones(3), np.ones((2, 4)), "tanned"])
-def test_a_state_is_four_numbers(state):
+@pytest.mark.parametrize("state", [np.ones(3), np.ones(6), np.ones((2, 4)), "tanned"])
+def test_a_state_is_four_or_five_numbers(state):
     with pytest.raises(InputError, match="tanning state"):
         Skin.of(SPECIMENS["S3"]).at(state)
+
+
+def test_blood_scales_in_both_dermal_layers_and_what_is_added_is_arterial():
+    skin = Skin.of(SPECIMENS["S3"])
+    usual, flushed = skin.at(skin.untanned_state), skin.at([*skin.untanned_state, 4.0])
+    assert flushed.papillary_blood == pytest.approx(4.0 * usual.papillary_blood)
+    assert flushed.reticular_blood == pytest.approx(4.0 * usual.reticular_blood)
+    assert flushed.oxygenated_blood == pytest.approx((usual.oxygenated_blood + 3.0 * 97.0) / 4.0)
+    changed = ("papillary_blood", "reticular_blood", "oxygenated_blood")
+    assert replace(flushed, **{name: getattr(usual, name) for name in changed}) == usual
+    assert skin.at([*skin.untanned_state, 1.0]) == usual
+    assert skin.at([*skin.untanned_state, np.exp(np.log(12.0))]).papillary_blood == pytest.approx(
+        12.0 * usual.papillary_blood
+    )
+
+
+@pytest.mark.parametrize("blood", [0.9, 12.1, np.nan])
+def test_blood_beyond_its_range_is_refused(blood):
+    skin = Skin.of(SPECIMENS["S3"])
+    with pytest.raises(InputError, match=r"relative blood is .*; allowed is 1 to 12\."):
+        skin.at([*skin.untanned_state, blood])

@@ -1,0 +1,209 @@
+"""How melanin is spread over the layers of the epidermis, given how much of it there is.
+
+A tan is mostly told by two numbers, how much melanin there is and how thick the skin; how the
+melanin is spread over its layers then follows, nearly. So states lie near a sheet, which belongs to
+the kinetics and not to the skin's optics. numpy only.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hylios.errors import InputError, as_numbers
+from hylios.tanning.dynamics import MelaninDynamics
+from hylios.tanning.exposures import Exposures
+from hylios.tanning.simulation import states_at
+
+SCHEDULES, DAYS, MOST_EXPOSURES, SEED = 24, 60, 11, 0
+LEAST_DOSE, MOST_DOSE = 0.35, 10.5
+"""The schedules simulated: how many, days, most exposures, and doses as multiples of the MMD."""
+
+HOURS_BETWEEN = 12.0
+
+DEGREE = 5
+"""Degree of the polynomial in melanin and thickness."""
+
+RIDGE = 1e-6
+"""Weight of the polynomial's coefficients against the states' distance, both squared, per state."""
+
+STRIPS = 8
+"""Strips of thickness for each of which it is kept how little and how much melanin was reached."""
+
+LEAST_REACH = 1e-9
+"""Span of a logarithm below which nothing changes but by rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spread:
+    """The sheet near which the states of one kinetics lie.
+
+    Attributes
+    ----------
+    untanned : (3,) array
+        Melanin of basale, spinosum, granulosum without sun, relative to their total.
+    directions : (3, 2) array
+        Two orthonormal directions in the logarithms of the three layers' melanin, each with the sum
+        0, so that the total does not matter (isometric log-ratios; Egozcue et al., Math. Geol. 35,
+        279, 2003). States vary most along the first.
+    thicknesses : (K,) ascending array
+        In the natural logarithm, of the strips in which melanin's reach is kept.
+    least, most : (K,) arrays
+        Natural logarithm of the least and the most melanin reached there.
+    coefficients : (T, 2) array
+        Of the polynomial in the logarithms of melanin and thickness (`_terms`).
+    """
+
+    untanned: NDArray[np.float64]
+    directions: NDArray[np.float64]
+    thicknesses: NDArray[np.float64]
+    least: NDArray[np.float64]
+    most: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+
+    def log_ratios(self, melanin: ArrayLike, thickness: ArrayLike) -> NDArray[np.float64]:
+        """How far the spread is from the untanned one along `directions`, (..., 2).
+
+        Parameters
+        ----------
+        melanin, thickness : (...) arrays
+            Natural logarithms, relative to the untanned skin's; both are cut to what is reached.
+        """
+        v = np.clip(as_numbers("thickness", thickness), self.thicknesses[0], self.thicknesses[-1])
+        u = np.clip(
+            as_numbers("melanin", melanin),
+            np.interp(v, self.thicknesses, self.least),
+            np.interp(v, self.thicknesses, self.most),
+        )
+        return _terms(*np.broadcast_arrays(u, v)) @ self.coefficients
+
+    def states(
+        self, melanin: ArrayLike, thickness: ArrayLike, blood: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Tanning states (..., 5) on the sheet, as `hylios.Skin.at` takes them.
+
+        Parameters
+        ----------
+        melanin, thickness, blood : (...) arrays
+            Natural logarithms of total melanin, thickness and blood, relative to the untanned
+            skin's. Beyond what the kinetics reaches the spread is that of the nearest reached; the
+            three numbers themselves are kept.
+
+        Raises
+        ------
+        InputError
+            If they are no numbers or their shapes do not fit.
+        """
+        u, v, b = np.broadcast_arrays(
+            *(
+                as_numbers(name, given)
+                for name, given in (
+                    ("melanin", melanin),
+                    ("thickness", thickness),
+                    ("blood", blood),
+                )
+            )
+        )
+        return np.concatenate(
+            [
+                np.exp(u)[..., None] * self.shares(self.log_ratios(u, v)),
+                np.exp(np.stack([v, b], axis=-1)),
+            ],
+            axis=-1,
+        )
+
+    def shares(self, log_ratios: np.ndarray) -> NDArray[np.float64]:
+        """Shares (..., 3) of basale, spinosum, granulosum at distances (..., 2) from untanned."""
+        parts = self.untanned * np.exp(log_ratios @ self.directions.T)
+        return parts / parts.sum(axis=-1, keepdims=True)
+
+
+@lru_cache(maxsize=32)
+def spread_of(dynamics: MelaninDynamics, *, mmd: float, med: float) -> Spread:
+    """The sheet of a kinetics, from some simulated schedules; the same for the same arguments.
+
+    Parameters
+    ----------
+    mmd, med : float
+        Minimal melanogenesis and erythema dose in SED.
+
+    Raises
+    ------
+    InputError
+        If a minimal dose is out of range, or a layer has no melanin without sun: no ratio to
+        nothing tells how it changes.
+    """
+    steady = dynamics.steady_state()
+    untanned = steady / steady.sum()
+    if not np.all(untanned > 0.0):
+        raise InputError(
+            f"melanin without sun is {untanned.tolist()} of basale, spinosum, granulosum; "
+            "allowed is more than 0 in each."
+        )
+    states = _reached(dynamics, mmd, med)
+    states = states[np.all(states > 0.0, axis=1)]
+    u, v = np.log(states[:, :3].sum(axis=1)), np.log(states[:, 3])
+    departures = np.log(states[:, :3] / untanned)
+    directions = _directions(departures)
+    strips = _strips(u, v)
+    return Spread(untanned, directions, *strips, _fitted(_terms(u, v), departures @ directions))
+
+
+def _reached(dynamics: MelaninDynamics, mmd: float, med: float) -> np.ndarray:
+    """States (N, 4) that seeded schedules lead through."""
+    random = np.random.default_rng(SEED)
+    hours = 24 * DAYS
+    doses = np.zeros((SCHEDULES, hours))
+    for schedule in doses:
+        count = random.integers(1, MOST_EXPOSURES + 1)
+        when = random.choice(hours, count, replace=False)
+        schedule[when] = mmd * random.uniform(LEAST_DOSE, MOST_DOSE, count)
+    states = states_at(
+        Exposures(np.arange(hours), doses),
+        dynamics,
+        times=np.arange(0.0, hours, HOURS_BETWEEN),
+        mmd=mmd,
+        med=med,
+    )
+    return states.reshape(-1, 4)
+
+
+def _directions(departures: np.ndarray) -> np.ndarray:
+    """Principal directions (3, 2) of logarithms (N, 3) without what all layers have in common."""
+    centred = departures - departures.mean(axis=1, keepdims=True)
+    if np.abs(centred).max() < LEAST_REACH:
+        centred = np.array([[1.0, 0.0, -1.0]])
+    first = np.linalg.svd(centred, full_matrices=False)[2][0]
+    first = first * np.sign(first[np.abs(first).argmax()])
+    return np.stack([first, np.cross(np.full(3, 1.0 / np.sqrt(3.0)), first)], axis=1)
+
+
+def _strips(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Thicknesses (K,), and the least and most melanin reached near each (K,), in logarithms."""
+    if np.ptp(v) < LEAST_REACH:
+        return np.array([v.mean()]), np.array([u.min()]), np.array([u.max()])
+    thicknesses = np.linspace(v.min(), v.max(), STRIPS)
+    width = thicknesses[1] - thicknesses[0]
+    near = np.abs(v - thicknesses[:, None]) <= width
+    least = np.where(near, u, np.inf).min(axis=1)
+    most = np.where(near, u, -np.inf).max(axis=1)
+    return thicknesses, least, most
+
+
+def _terms(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Powers of melanin and thickness (..., T), all 0 without sun."""
+    powers = [
+        (first, second)
+        for first, second in product(range(DEGREE + 1), repeat=2)
+        if 0 < first + second <= DEGREE
+    ]
+    # thickness's logarithm is a quarter of melanin's
+    return np.stack([u**first * (4.0 * v) ** second for first, second in powers], axis=-1)
+
+
+def _fitted(terms: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Coefficients (T, 2) with which the terms (N, T) come nearest to values (N, 2)."""
+    normal = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
+    return np.linalg.solve(normal, terms.T @ values)

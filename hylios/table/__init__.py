@@ -4,7 +4,7 @@ The table builder writes the file with OpenImageIO; builder and add-on read it w
 which needs numpy and the standard library alone. `docs/table_format.md` describes the file.
 """
 
-from hylios.table.axes import STATE_NAMES, StateAxes
+from hylios.table.axes import LOOK_AXES, STATE_NAMES, LookAxes, StateAxes
 from hylios.table.file import read_table
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.planes import MEANINGS, PLANES
@@ -33,9 +33,11 @@ __all__ = [
     "FORMAT_VERSION",
     "HEADER_ATTRIBUTE",
     "INTERPOLATIONS",
+    "LOOK_AXES",
     "MEANINGS",
     "PLANES",
     "STATE_NAMES",
+    "LookAxes",
     "MinimalDoses",
     "SkinTable",
     "StateAxes",

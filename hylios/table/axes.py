@@ -1,13 +1,25 @@
-"""Coordinates of tanning states."""
+"""Coordinates of tanning states: what a table's axes are.
+
+`LookAxes` are those of the tables that are written now, `StateAxes` of the earlier format 3.
+"""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.errors import InputError
+from hylios.tanning.spread import across, powers, shares_at
 
 STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness", "blood")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
+
+LOOK_AXES = ("melanin", "thickness", "spread", "blood")
+"""Names of the axes of `LookAxes`, in their order."""
+
+BEND_DEGREE = 3
+BEND_TERMS = powers(0.0, 0.0, BEND_DEGREE).size
+"""Degree of the polynomial `LookAxes.bend`, and the number of its terms."""
 
 LARGEST_COORDINATE = 30.0
 """Largest coordinate of a knot: a state 1e13 times the untanned one is no skin's."""
@@ -15,14 +27,17 @@ LARGEST_COORDINATE = 30.0
 LEAST_STEP = 1e-9
 """Least distance of two knots."""
 
+SLACK = 0.01
+"""How far beyond the outermost knots of bounded axes a state may lie, in the logarithm: .09
+CIEDE2000 at most."""
+
 
 @dataclass(frozen=True)
 class StateAxes:
-    """Coordinates of tanning states.
+    """Principal axes of four numbers, as tables of format 3 have them; blood is passed over.
 
-    A state is (melanin of basale, spinosum, granulosum, thickness), as `TanningHistory.states`
-    has it. Its coordinates are the logarithm of its ratio to the untanned state, projected on
-    the orthonormal columns of `basis`; the untanned skin lies at 0.
+    A state's coordinates are the logarithm of the ratio of its first four numbers to the untanned
+    state's, projected on the orthonormal columns of `basis`; the untanned skin lies at 0.
 
     Attributes
     ----------
@@ -41,16 +56,14 @@ class StateAxes:
         return tuple(len(axis) for axis in self.knots)
 
     def coordinates(self, states: np.ndarray) -> np.ndarray:
-        """Coordinates (..., K) of states (..., 4).
+        """Coordinates (..., K) of states (..., 4) or (..., 5).
 
         Raises
         ------
         InputError
-            If a state has a number that is not above 0.
+            If the states have another shape, or one has a number that is not above 0.
         """
-        if not np.all((states > 0) & np.isfinite(states)):
-            raise InputError("a tanning state has a number that is not above 0 and finite.")
-        return np.log(states / self.untanned) @ self.basis
+        return _logarithms(states, self.untanned)[..., :4] @ self.basis
 
     def states(self, coordinates: np.ndarray) -> np.ndarray:
         """States (..., 4) at coordinates (..., K)."""
@@ -61,13 +74,135 @@ class StateAxes:
         return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
 
 
-def require_axes(axes: StateAxes) -> None:
+@dataclass(frozen=True)
+class LookAxes:
+    """Four axes of what changes a skin's look: melanin, thickness, spread and blood.
+
+    The first, second and last coordinate are the natural logarithms of a state's total melanin,
+    thickness and blood, relative to the untanned skin's. The third is how melanin is spread over
+    the layers: the logarithms of their ratios to `untanned`, projected on `direction`. All are 0
+    without sun. A second such log-ratio, across the first, follows from spread and thickness.
+
+    Attributes
+    ----------
+    untanned : (3,) array
+        Melanin of basale, spinosum, granulosum without sun, relative to their total.
+    direction : (3,) array
+        Of the spread; of length 1, its sum 0.
+    bend : (BEND_TERMS,) array
+        Coefficients of the second log-ratio: of the products of powers of spread and thickness
+        (`hylios.tanning.spread.powers`).
+    knots : four ascending arrays, each with at least one knot
+    bounded : bool
+        Whether the table says nothing beyond the outermost knots, as one for one scene alone.
+    """
+
+    untanned: np.ndarray
+    direction: np.ndarray
+    bend: np.ndarray
+    knots: tuple[np.ndarray, ...]
+    bounded: bool = False
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of knots on each axis."""
+        return tuple(len(axis) for axis in self.knots)
+
+    def coordinates(self, states: np.ndarray) -> np.ndarray:
+        """Coordinates (..., 4) of states (..., 4), whose blood is the untanned skin's, or (..., 5).
+
+        Raises
+        ------
+        InputError
+            If the states have another shape, or one has a number that is not above 0.
+        """
+        ratios = _logarithms(states, np.append(self.untanned, [1.0, 1.0]))
+        return np.stack(
+            [
+                np.log(np.asarray(states)[..., :3].sum(axis=-1)),
+                ratios[..., 3],
+                ratios[..., :3] @ self.direction,
+                ratios[..., 4],
+            ],
+            axis=-1,
+        )
+
+    def states(self, coordinates: np.ndarray) -> np.ndarray:
+        """States (..., 5) at coordinates (..., 4)."""
+        melanin, thickness, spread, blood = np.moveaxis(np.asarray(coordinates, dtype=float), -1, 0)
+        second = powers(spread, thickness, BEND_DEGREE) @ self.bend
+        shares = shares_at(
+            self.untanned, across(self.direction), np.stack([spread, second], axis=-1)
+        )
+        return np.concatenate(
+            [
+                np.exp(melanin)[..., None] * shares,
+                np.exp(np.stack([thickness, blood], axis=-1)),
+            ],
+            axis=-1,
+        )
+
+    def knot_states(self) -> np.ndarray:
+        """States at all knots, shape (*shape, 5)."""
+        return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
+
+    def hold(self, states: np.ndarray) -> NDArray[np.bool_]:
+        """Whether states (..., 4) or (..., 5) lie within the outermost knots, bool (...).
+
+        All do where the axes are not bounded.
+        """
+        places = self.coordinates(states)
+        if not self.bounded:
+            return np.ones(places.shape[:-1], bool)
+        low, high = (np.array([own[end] for own in self.knots]) for end in (0, -1))
+        return np.all((places >= low - SLACK) & (places <= high + SLACK), axis=-1)
+
+
+Axes = StateAxes | LookAxes
+"""The axes that a table may have."""
+
+
+def _logarithms(states: np.ndarray, untanned: np.ndarray) -> np.ndarray:
+    """Logarithms (..., 4 or 5) of states' ratios to the untanned one, as long as that is."""
+    states = np.asarray(states, dtype=float)
+    if states.ndim == 0 or states.shape[-1] not in {4, 5}:
+        raise InputError(
+            f"tanning states have shape {states.shape}; expected (..., 4) or (..., 5)."
+        )
+    if not np.all((states > 0) & np.isfinite(states)):
+        raise InputError("a tanning state has a number that is not above 0 and finite.")
+    count = min(states.shape[-1], untanned.size)
+    ratios = np.zeros((*states.shape[:-1], untanned.size))
+    ratios[..., :count] = np.log(states[..., :count] / untanned[:count])
+    return ratios
+
+
+def require_axes(axes: Axes) -> None:
     """Raise InputError unless axes could be a skin's."""
-    if not (_is_state(axes.untanned) and _is_basis(axes) and all(map(_are_knots, axes.knots))):
+    knots_fit = all(map(_are_knots, axes.knots))
+    if isinstance(axes, LookAxes):
+        if not (knots_fit and len(axes.knots) == len(LOOK_AXES) and _is_spread(axes)):
+            raise InputError(
+                "the table's axes are not three positive shares of melanin that sum to 1, a "
+                f"direction of spread with its bend, and ascending knots of {', '.join(LOOK_AXES)} "
+                f"within {LARGEST_COORDINATE:g} of 0."
+            )
+    elif not (_is_state(axes.untanned) and _is_basis(axes) and knots_fit):
         raise InputError(
             "the table's axes are not four positive numbers, 1 to 4 orthonormal directions and "
             f"ascending knots within {LARGEST_COORDINATE:g} of 0."
         )
+
+
+def _is_spread(axes: LookAxes) -> bool:
+    shapes = axes.untanned.shape, axes.direction.shape, axes.bend.shape
+    if shapes != ((3,), (3,), (BEND_TERMS,)):
+        return False
+    shares_fit = np.all(axes.untanned > 1e-6) and abs(axes.untanned.sum() - 1.0) < 1e-6
+    direction_fits = (
+        abs(axes.direction @ axes.direction - 1.0) < 1e-6 and abs(axes.direction.sum()) < 1e-6
+    )
+    return bool(shares_fit and direction_fits and np.all(np.abs(axes.bend) < 1e3))
 
 
 def _is_state(untanned: np.ndarray) -> bool:

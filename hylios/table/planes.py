@@ -39,16 +39,27 @@ class Meaning:
 MOST_REFLECTANCE = 1.5
 """Largest value of a colour's channel or a band; saturated colours have more than 1 in one."""
 
+COLOUR_UNIT = "linear Rec.709"
+
+
+def _colour(says: str) -> Meaning:
+    return Meaning(says, COLOUR_UNIT, high=MOST_REFLECTANCE)
+
+
 MEANINGS = {
-    "subsurface_colour": Meaning(
-        "light that has been inside the skin: the albedo of a shader",
-        "linear Rec.709, D65",
-        high=MOST_REFLECTANCE,
+    "subsurface_colour": _colour(
+        "light that has been inside the skin: the albedo of a shader; incident at 8 degrees, as "
+        "what does not say another angle"
     ),
-    "total_colour": Meaning(
-        "the same with the light that the surface reflects: what a measurement sees",
-        "linear Rec.709, D65",
-        high=MOST_REFLECTANCE,
+    "total_colour": _colour(
+        "the same with the light that the surface reflects: what a measurement sees"
+    ),
+    "subsurface_colour_45": _colour("light that has been inside the skin, incident at 45 degrees"),
+    "subsurface_colour_60": _colour("light that has been inside the skin, incident at 60 degrees"),
+    "subsurface_colour_70": _colour("light that has been inside the skin, incident at 70 degrees"),
+    "total_colour_45": _colour("all light that is reflected, incident at 45 degrees"),
+    "wet_subsurface_colour": _colour(
+        "light that has been inside the skin, under a film of water of index 1.33"
     ),
     "band_reflectance": Meaning(
         "total reflectance at a wavelength",
@@ -56,8 +67,19 @@ MEANINGS = {
         components=(),
         high=MOST_REFLECTANCE,
     ),
+    "near_share": Meaning(
+        "share of the light that has been inside the skin that leaves where it came in, as seen "
+        "from .1 mm on",
+        "share of the light that leaves",
+        high=1.0,
+    ),
+    "far_width": Meaning("width d of Burley's diffusion profile of the rest", "mm", high=1e6),
     "profile_width": Meaning("width d of Burley's diffusion profile", "mm", high=1e6),
-    "colour_error": Meaning("estimated standard error of total_colour", "linear Rec.709, D65"),
+    "colour_error": Meaning("estimated standard error of total_colour", COLOUR_UNIT),
+    "near_share_error": Meaning(
+        "estimated standard error of near_share", "share of the light that leaves"
+    ),
+    "far_width_error": Meaning("estimated standard error of far_width", "mm"),
     "profile_error": Meaning(
         "estimated standard error of the share of light that leaves within a distance, at the "
         "distance where it is largest",

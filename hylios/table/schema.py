@@ -17,7 +17,17 @@ from hylios.errors import InputError
 from hylios.skin import UNTANNED
 from hylios.skin.specimen import Specimen
 from hylios.sun.action_spectra import Absorptance
-from hylios.table.axes import LARGEST_COORDINATE, StateAxes, require_axes
+from hylios.table.axes import (
+    AXIS_UNIT,
+    BEND_TERMS,
+    LARGEST_COORDINATE,
+    LOOK_AXES,
+    STATE_NAMES,
+    Axes,
+    LookAxes,
+    StateAxes,
+    require_axes,
+)
 from hylios.table.interpolation import INTERPOLATIONS
 from hylios.table.kinds import (
     Kind,
@@ -39,7 +49,9 @@ from hylios.table.planes import MEANINGS, component_names
 from hylios.tanning import PIGMENTATIONS, MelaninDynamics
 
 FORMAT = "skin tan table"
-FORMAT_VERSION = 3
+FORMAT_VERSION, PRINCIPAL_AXES_VERSION = 4, 3
+"""Version of the tables that are written now, and of those with principal axes."""
+
 LONGEST_HEADER = 1_000_000
 
 MOST_STATES, MOST_KNOTS, MOST_AXES, MOST_BANDS = 20_000, 100, 4, 100
@@ -142,29 +154,39 @@ PROVENANCE: dict[str, Kind] = {
 }
 """Kinds of the provenance's keys. Any key may be missing; other keys may hold any plain value."""
 
-_COORDINATES = number(-LARGEST_COORDINATE, LARGEST_COORDINATE)
-_AXIS = holding(
-    {
-        "direction": list_of(number(-1.1, 1.1), 4, 4),
-        "knots": list_of(_COORDINATES, 1, MOST_STATES),
-    },
+_KNOTS = list_of(number(-LARGEST_COORDINATE, LARGEST_COORDINATE), 1, MOST_STATES)
+_PRINCIPAL_AXIS = holding(
+    {"direction": list_of(number(-1.1, 1.1), 4, 4), "knots": _KNOTS},
     {"name": text, "unit": text},
 )
+_PRINCIPAL_AXES = holding(
+    {
+        "untanned": list_of(number(1e-6, 1e3), 4, 4),
+        "list": list_of(_PRINCIPAL_AXIS, 1, MOST_AXES),
+    },
+    {"state": list_of(text, 4, 4)},
+)
+_LOOK_AXIS = holding({"name": choice(LOOK_AXES), "knots": _KNOTS}, {"unit": text})
+_LOOK_AXES = holding(
+    {
+        "untanned_melanin": list_of(number(1e-6, 1.0), 3, 3),
+        "spread_direction": list_of(number(-1.1, 1.1), 3, 3),
+        "spread_bend": list_of(number(-1e3, 1e3), BEND_TERMS, BEND_TERMS),
+        "bounded": truth,
+        "list": list_of(_LOOK_AXIS, len(LOOK_AXES), len(LOOK_AXES)),
+    },
+    {"state": list_of(text, 5, 5)},
+)
+_OTHERS = {
+    "interpolation": choice(INTERPOLATIONS),
+    "planes": mapping_of(
+        holding({"components": list_of(text, 1, MOST_BANDS)}, {"unit": text, "says": text})
+    ),
+    "provenance": holding({}),
+}
 _HEADERS: dict[int, dict[str, Kind]] = {
-    3: {
-        "interpolation": choice(INTERPOLATIONS),
-        "axes": holding(
-            {
-                "untanned": list_of(number(1e-6, 1e3), 4, 4),
-                "list": list_of(_AXIS, 1, MOST_AXES),
-            },
-            {"state": list_of(text, 4, 4)},
-        ),
-        "planes": mapping_of(
-            holding({"components": list_of(text, 1, MOST_BANDS)}, {"unit": text, "says": text})
-        ),
-        "provenance": holding({}),
-    }
+    PRINCIPAL_AXES_VERSION: {"axes": _PRINCIPAL_AXES, **_OTHERS},
+    FORMAT_VERSION: {"axes": _LOOK_AXES, **_OTHERS},
 }
 """What the header of a format version must have, besides `format` and `format_version`."""
 
@@ -175,14 +197,14 @@ class Header:
 
     Attributes
     ----------
-    axes : StateAxes
+    axes : StateAxes or LookAxes
     components : mapping of planes' names to tuples of str
         Of the planes whose meaning is known here.
     provenance : dict
     interpolation : str
     """
 
-    axes: StateAxes
+    axes: Axes
     components: dict[str, tuple[str, ...]]
     provenance: dict[str, Any]
     interpolation: str
@@ -204,12 +226,7 @@ def parsed(header: str) -> Header:
             raise InputError(f"the table's header has no {key}.")
         kind(key, content[key])
     require_provenance(content["provenance"])
-    listed = content["axes"]["list"]
-    axes = StateAxes(
-        untanned=np.array(content["axes"]["untanned"], dtype=float),
-        basis=np.array([axis["direction"] for axis in listed], dtype=float).T,
-        knots=tuple(np.array(axis["knots"], dtype=float) for axis in listed),
-    )
+    axes = _axes(content)
     require_axes(axes)
     components = {
         name: tuple(described["components"])
@@ -225,6 +242,60 @@ def parsed(header: str) -> Header:
                 f"expected {', '.join(expected)}."
             )
     return Header(axes, components, content["provenance"], content["interpolation"])
+
+
+def _axes(content: Mapping[str, Any]) -> Axes:
+    told = content["axes"]
+    knots = tuple(np.array(axis["knots"], dtype=float) for axis in told["list"])
+    if content["format_version"] == PRINCIPAL_AXES_VERSION:
+        return StateAxes(
+            untanned=np.array(told["untanned"], dtype=float),
+            basis=np.array([axis["direction"] for axis in told["list"]], dtype=float).T,
+            knots=knots,
+        )
+    names = tuple(axis["name"] for axis in told["list"])
+    if names != LOOK_AXES:
+        raise InputError(
+            f"the table's axes are {', '.join(names)}; expected {', '.join(LOOK_AXES)}."
+        )
+    return LookAxes(
+        untanned=np.array(told["untanned_melanin"], dtype=float),
+        direction=np.array(told["spread_direction"], dtype=float),
+        bend=np.array(told["spread_bend"], dtype=float),
+        knots=knots,
+        bounded=told["bounded"],
+    )
+
+
+def described_axes(axes: Axes) -> tuple[int, dict[str, Any]]:
+    """Format version of a table with such axes, and the axes as its header has them."""
+    if isinstance(axes, LookAxes):
+        return FORMAT_VERSION, {
+            "state": list(STATE_NAMES),
+            "untanned_melanin": axes.untanned.tolist(),
+            "spread_direction": axes.direction.tolist(),
+            "spread_bend": axes.bend.tolist(),
+            "bounded": axes.bounded,
+            "list": [
+                {"name": name, "unit": AXIS_UNIT, "knots": knots.tolist()}
+                for name, knots in zip(LOOK_AXES, axes.knots, strict=True)
+            ],
+        }
+    return PRINCIPAL_AXES_VERSION, {
+        "state": list(STATE_NAMES[:4]),
+        "untanned": axes.untanned.tolist(),
+        "list": [
+            {
+                "name": f"principal axis {number}",
+                "unit": AXIS_UNIT,
+                "direction": direction.tolist(),
+                "knots": knots.tolist(),
+            }
+            for number, (direction, knots) in enumerate(
+                zip(axes.basis.T, axes.knots, strict=True), start=1
+            )
+        ],
+    }
 
 
 def require_provenance(provenance: Mapping[str, Any]) -> None:

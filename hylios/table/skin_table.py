@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
-from hylios.table.axes import StateAxes
+from hylios.table.axes import Axes, LookAxes
 from hylios.table.interpolation import interpolate
 
 
@@ -18,7 +18,7 @@ class SkinTable:
 
     Attributes
     ----------
-    axes : StateAxes
+    axes : LookAxes, or StateAxes in a table of format 3
     planes : mapping of names to arrays, shape `axes.shape` and then components
         Some of `PLANES`; `docs/table_format.md` says what each holds.
     provenance : dict
@@ -36,7 +36,7 @@ class SkinTable:
     >>> table.plane("total_colour", states)  # doctest: +SKIP
     """
 
-    axes: StateAxes
+    axes: Axes
     planes: Mapping[str, NDArray[np.float64]]
     provenance: dict[str, Any]
     interpolation: str = "linear"
@@ -44,14 +44,16 @@ class SkinTable:
     def lookup(
         self, states: ArrayLike, names: Sequence[str] | None = None
     ) -> dict[str, NDArray[np.float64]]:
-        """Planes by name, each (..., components), at tanning states (..., 4).
+        """Planes by name, each (..., components), at tanning states (..., 4) or (..., 5).
 
-        All planes, unless some are named. Beyond the outermost knots their value is held.
+        All planes, unless some are named. Beyond the outermost knots their value is held. Where
+        blood is left out it is the untanned skin's; a table of format 3 knows no other.
 
         Raises
         ------
         InputError
-            If a state has a number that is not above 0, or if the table has no such plane.
+            If the states have another shape, one has a number that is not above 0, or the table
+            has no such plane.
         """
         wanted = tuple(self.planes if names is None else names)
         for name in wanted:
@@ -69,23 +71,26 @@ class SkinTable:
         return dict(zip(wanted, np.split(numbers, ends[:-1], axis=-1), strict=True))
 
     def holds(self, states: ArrayLike) -> NDArray[np.bool_]:
-        """Whether the table says something of tanning states (..., 4), bool (...).
+        """Whether the table says something of tanning states (..., 4) or (..., 5), bool (...).
 
-        One for any sun does of all. One for a scene does where its plane `state`, looked up, gives
-        back the state: beyond its knots, off its axes or where nothing was computed it does not.
+        One for any sun does of all. One for a scene does of those within its outermost knots; in
+        format 3 of those that its plane `state`, looked up, gives back: beyond its knots, off its
+        axes or where nothing was computed it does not.
 
         Raises
         ------
         InputError
-            If a state has a number that is not above 0.
+            If the states have another shape, or one has a number that is not above 0.
         """
         numbers = as_numbers("tanning states", states)
+        if isinstance(self.axes, LookAxes):
+            return self.axes.hold(numbers)
         if "state" not in self.planes:
             return np.ones(numbers.shape[:-1], bool)
         nearest = self.plane("state", numbers)
-        apart = np.abs(nearest[..., :4] - np.log(numbers / self.axes.untanned)).max(axis=-1)
-        return apart <= nearest[..., 4]
+        apart = np.abs(nearest[..., :4] - np.log(numbers[..., :4] / self.axes.untanned))
+        return apart.max(axis=-1) <= nearest[..., 4]
 
     def plane(self, name: str, states: ArrayLike) -> NDArray[np.float64]:
-        """One plane at tanning states (..., 4), shape (..., components)."""
+        """One plane at tanning states (..., 4) or (..., 5), shape (..., components)."""
         return self.lookup(states, (name,))[name]

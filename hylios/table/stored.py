@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError
-from hylios.table.axes import AXIS_UNIT, STATE_NAMES, StateAxes, require_axes
+from hylios.table.axes import Axes, require_axes
 from hylios.table.planes import MEANINGS, component_names, require_values
 from hylios.table.schema import (
     FORMAT,
-    FORMAT_VERSION,
+    described_axes,
     parsed,
     require_interpolation,
     require_planes,
@@ -106,24 +106,12 @@ def from_stored(stored: StoredTable) -> SkinTable:
 
 
 def _header(table: SkinTable, planes: dict[str, Any]) -> dict[str, Any]:
-    directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
+    version, axes = described_axes(table.axes)
     return {
         "format": FORMAT,
-        "format_version": FORMAT_VERSION,
+        "format_version": version,
         "interpolation": table.interpolation,
-        "axes": {
-            "state": list(STATE_NAMES[:4]),
-            "untanned": table.axes.untanned.tolist(),
-            "list": [
-                {
-                    "name": f"principal axis {number}",
-                    "unit": AXIS_UNIT,
-                    "direction": direction.tolist(),
-                    "knots": knots.tolist(),
-                }
-                for number, (direction, knots) in enumerate(directions, start=1)
-            ],
-        },
+        "axes": axes,
         "planes": planes,
         "provenance": table.provenance,
     }
@@ -140,7 +128,7 @@ def _pixels(plane: str, numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
     return pixels
 
 
-def _values(stored: StoredTable, name: str, axes: StateAxes) -> np.ndarray:
+def _values(stored: StoredTable, name: str, axes: Axes) -> np.ndarray:
     """The way back from `_pixels`."""
     if name not in stored.channels:
         raise InputError(f"the table has no channel {name}, which its header names.")

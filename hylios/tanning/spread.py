@@ -53,7 +53,7 @@ class Spread:
     least, most : (K,) arrays
         Natural logarithm of the least and the most melanin reached there.
     coefficients : (T, 2) array
-        Of the polynomial in the logarithms of melanin and thickness (`_terms`).
+        Of the products of powers of the logarithms of melanin and thickness (`powers`).
     """
 
     untanned: NDArray[np.float64]
@@ -77,7 +77,7 @@ class Spread:
             np.interp(v, self.thicknesses, self.least),
             np.interp(v, self.thicknesses, self.most),
         )
-        return _terms(*np.broadcast_arrays(u, v)) @ self.coefficients
+        return powers(*np.broadcast_arrays(u, v), DEGREE) @ self.coefficients
 
     def states(
         self, melanin: ArrayLike, thickness: ArrayLike, blood: ArrayLike = 0.0
@@ -108,16 +108,12 @@ class Spread:
         )
         return np.concatenate(
             [
-                np.exp(u)[..., None] * self.shares(self.log_ratios(u, v)),
+                np.exp(u)[..., None]
+                * shares_at(self.untanned, self.directions, self.log_ratios(u, v)),
                 np.exp(np.stack([v, b], axis=-1)),
             ],
             axis=-1,
         )
-
-    def shares(self, log_ratios: np.ndarray) -> NDArray[np.float64]:
-        """Shares (..., 3) of basale, spinosum, granulosum at distances (..., 2) from untanned."""
-        parts = self.untanned * np.exp(log_ratios @ self.directions.T)
-        return parts / parts.sum(axis=-1, keepdims=True)
 
 
 @lru_cache(maxsize=32)
@@ -148,7 +144,9 @@ def spread_of(dynamics: MelaninDynamics, *, mmd: float, med: float) -> Spread:
     departures = np.log(states[:, :3] / untanned)
     directions = _directions(departures)
     strips = _strips(u, v)
-    return Spread(untanned, directions, *strips, _fitted(_terms(u, v), departures @ directions))
+    return Spread(
+        untanned, directions, *strips, fitted(powers(u, v, DEGREE), departures @ directions)
+    )
 
 
 def _reached(dynamics: MelaninDynamics, mmd: float, med: float) -> np.ndarray:
@@ -177,7 +175,7 @@ def _directions(departures: np.ndarray) -> np.ndarray:
         centred = np.array([[1.0, 0.0, -1.0]])
     first = np.linalg.svd(centred, full_matrices=False)[2][0]
     first = first * np.sign(first[np.abs(first).argmax()])
-    return np.stack([first, np.cross(np.full(3, 1.0 / np.sqrt(3.0)), first)], axis=1)
+    return across(first)
 
 
 def _strips(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -192,18 +190,37 @@ def _strips(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     return thicknesses, least, most
 
 
-def _terms(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Powers of melanin and thickness (..., T), all 0 without sun."""
-    powers = [
-        (first, second)
-        for first, second in product(range(DEGREE + 1), repeat=2)
-        if 0 < first + second <= DEGREE
-    ]
-    # thickness's logarithm is a quarter of melanin's
-    return np.stack([u**first * (4.0 * v) ** second for first, second in powers], axis=-1)
+def powers(first: np.ndarray | float, thickness: np.ndarray | float, degree: int) -> np.ndarray:
+    """Products (..., T) of powers of two logarithms (...), up to a degree in all; 0 without sun.
+
+    In the order of the first's power, then of the thickness's, which is taken four times: it
+    changes by a quarter as much.
+    """
+    second = 4.0 * np.asarray(thickness, dtype=float)
+    return np.stack(
+        [
+            np.asarray(first, dtype=float) ** own * second**other
+            for own, other in product(range(degree + 1), repeat=2)
+            if 0 < own + other <= degree
+        ],
+        axis=-1,
+    )
 
 
-def _fitted(terms: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Coefficients (T, 2) with which the terms (N, T) come nearest to values (N, 2)."""
+def fitted(terms: np.ndarray, values: np.ndarray) -> NDArray[np.float64]:
+    """Coefficients (T, ...) with which the terms (N, T) come nearest to values (N, ...)."""
     normal = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
     return np.linalg.solve(normal, terms.T @ values)
+
+
+def across(direction: np.ndarray) -> NDArray[np.float64]:
+    """A direction (3,) of log-ratios and the one across it, as columns (3, 2)."""
+    return np.stack([direction, np.cross(np.full(3, 1.0 / np.sqrt(3.0)), direction)], axis=1)
+
+
+def shares_at(
+    untanned: np.ndarray, directions: np.ndarray, log_ratios: np.ndarray
+) -> NDArray[np.float64]:
+    """Shares (..., 3) of melanin by layer, so far (..., 2) from untanned along two directions."""
+    parts = untanned * np.exp(log_ratios @ directions.T)
+    return parts / parts.sum(axis=-1, keepdims=True)

@@ -1,0 +1,166 @@
+"""Tables over melanin, thickness, spread and blood; and those of format 3 beside them."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hylios.adding import colours
+from hylios.errors import InputError
+from hylios.lab.colour import difference
+from hylios.skin.phototypes import phototype
+from hylios.table import (
+    LookAxes,
+    SkinTable,
+    StateAxes,
+    StoredTable,
+    from_stored,
+    read_table,
+    to_stored,
+)
+from hylios.table.stored import checksum
+from hylios.tanning import spread_of
+
+FORMAT_3 = Path(__file__).parents[2] / "data" / "III_format_3.exr"
+KNOTS = (
+    np.array([-6.0, 0.0, 0.8, 1.6]),
+    np.array([0.0, 0.2]),
+    np.array([-0.5, 0.0, 1.5]),
+    np.log([1.0, 3.0, 12.0]),
+)
+
+
+@pytest.fixture(scope="module")
+def axes():
+    skin = phototype("V").skin
+    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    bend = np.random.default_rng(1).normal(0.0, 0.1, 9)
+    return LookAxes(sheet.untanned, sheet.directions[:, 0], bend, KNOTS)
+
+
+@pytest.fixture(scope="module")
+def table(axes):
+    """Colours that are straight in every coordinate."""
+    places = np.stack(np.meshgrid(*axes.knots, indexing="ij"), axis=-1)
+    slopes = [[-0.05, 0.0, 0.02], [0.3, 0.1, 0.0], [0.0, 0.04, 0.0], [0.01, -0.04, -0.05]]
+    colour = 0.5 + places @ np.array(slopes)
+    planes = {"subsurface_colour": np.clip(colour, 0.0, 1.5)}
+    return SkinTable(axes, planes, {"specimen": "V"})
+
+
+def states(count):
+    random = np.random.default_rng(3)
+    melanin = random.dirichlet([3.0, 2.0, 1.0], count) * random.uniform(0.1, 4.0, (count, 1))
+    return np.column_stack(
+        [melanin, random.uniform(1.0, 1.2, count), random.uniform(1.0, 12.0, count)]
+    )
+
+
+def test_coordinates_are_logarithms_of_melanin_thickness_and_blood(axes):
+    some = states(50)
+    places = axes.coordinates(some)
+    assert places[:, 0] == pytest.approx(np.log(some[:, :3].sum(axis=1)))
+    assert places[:, [1, 3]] == pytest.approx(np.log(some[:, 3:]))
+    more = axes.coordinates(some * np.array([2.5, 2.5, 2.5, 1.0, 1.0]))
+    assert more - places == pytest.approx(np.tile([np.log(2.5), 0.0, 0.0, 0.0], (50, 1)), abs=1e-12)
+    assert axes.coordinates(np.append(axes.untanned, 1.0)) == pytest.approx(np.zeros(4), abs=1e-12)
+    assert np.array_equal(axes.coordinates(some[:, :4])[:, 3], np.zeros(50))
+
+
+def test_states_at_the_knots_have_the_knots_coordinates(axes):
+    knots = axes.knot_states()
+    assert knots.shape == (4, 2, 3, 3, 5)
+    places = np.stack(np.meshgrid(*axes.knots, indexing="ij"), axis=-1)
+    assert axes.coordinates(knots) == pytest.approx(places, abs=1e-9)
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "pchip"])
+def test_four_numbers_are_looked_up_as_five_with_the_untanned_blood(table, interpolation):
+    some, used = states(40), replace(table, interpolation=interpolation)
+    whole = used.plane("subsurface_colour", np.column_stack([some[:, :4], np.ones(40)]))
+    assert np.array_equal(used.plane("subsurface_colour", some[:, :4]), whole)
+    flushed = used.plane("subsurface_colour", some)
+    assert not np.allclose(flushed, whole, atol=1e-3)
+
+
+def test_a_table_over_melanin_survives_its_channels_and_says_its_axes(table):
+    stored = to_stored(table)
+    header = json.loads(stored.header)
+    assert header["format_version"] == 4
+    assert [axis["name"] for axis in header["axes"]["list"]] == [
+        "melanin",
+        "thickness",
+        "spread",
+        "blood",
+    ]
+    again = from_stored(stored)
+    assert isinstance(again.axes, LookAxes) and not again.axes.bounded
+    for name in ("untanned", "direction", "bend"):
+        assert np.array_equal(getattr(again.axes, name), getattr(table.axes, name))
+    assert all(map(np.array_equal, again.axes.knots, table.axes.knots))
+    some = states(20)
+    assert again.plane("subsurface_colour", some) == pytest.approx(
+        table.plane("subsurface_colour", some), abs=1e-6
+    )
+    assert np.array_equal(again.axes.knot_states(), table.axes.knot_states())
+
+
+def test_bounded_axes_hold_what_lies_within_their_knots(table):
+    inside = table.axes.states(np.array([[0.5, 0.1, 0.3, 1.0], [1.605, 0.2, 1.5, 0.0]]))
+    outside = table.axes.states(
+        np.array([[1.7, 0.1, 0.3, 1.0], [0.5, 0.1, -0.7, 1.0], [0.5, 0.3, 0.3, 1.0]])
+    )
+    everything = np.concatenate([inside, outside])
+    assert table.holds(everything).all()
+    bounded = replace(table, axes=replace(table.axes, bounded=True))
+    assert bounded.holds(everything).tolist() == [True, True, False, False, False]
+    again = from_stored(to_stored(bounded))
+    assert again.holds(everything).tolist() == bounded.holds(everything).tolist()
+
+
+def test_states_of_another_shape_are_refused(table):
+    for wrong in (np.ones(3), np.ones((2, 6)), 1.0):
+        with pytest.raises(InputError, match=r"expected \(\.\.\., 4\) or \(\.\.\., 5\)"):
+            table.lookup(wrong)
+    with pytest.raises(InputError, match="not above 0 and finite"):
+        table.lookup([0.5, 0.3, 0.2, 1.0, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda axes: axes.update(bounded=1), "axes.bounded is 1; expected true or false"),
+        (lambda axes: axes.pop("bounded"), "axes has no bounded"),
+        (lambda axes: axes["list"].pop(), r"axes.list is .*; expected a list of 4"),
+        (lambda axes: axes["list"].reverse(), "axes are blood, spread, thickness, melanin"),
+        (lambda axes: axes["spread_bend"].pop(), "spread_bend is .*; expected a list of 9"),
+        (lambda axes: axes.update(spread_direction=[1, 0, 0]), "axes are not three positive"),
+        (lambda axes: axes.update(untanned_melanin=[1, 1, 1]), "axes are not three positive"),
+        (lambda axes: axes["list"][0].update(knots=[1.0, 0.0]), "axes are not three positive"),
+    ],
+)
+def test_axes_that_do_not_fit_are_refused(table, change, sentence):
+    stored = to_stored(table)
+    header = json.loads(stored.header)
+    change(header["axes"])
+    text = json.dumps(header)
+    with pytest.raises(InputError, match=sentence):
+        from_stored(StoredTable(stored.channels, text, checksum(text, stored.channels)))
+
+
+def test_a_table_of_format_3_is_read_and_knows_no_blood():
+    """The one shipped with the earlier add-on, against the model."""
+    old = read_table(FORMAT_3)
+    assert isinstance(old.axes, StateAxes)
+    assert {"profile_width", "profile_error", "profile_effective_samples"} <= set(old.planes)
+    skin = phototype("III").skin
+    melanin = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    some = melanin.states([0.0, 0.3, 0.6], [0.0, 0.1, 0.05])
+    seen = old.plane("total_colour", some)
+    assert difference(colours(skin, some[:, :4]).total, seen).max() < 0.15
+    flushed = some * np.array([1.0, 1.0, 1.0, 1.0, 8.0])
+    assert np.array_equal(old.plane("total_colour", flushed), seen)
+    assert old.holds(flushed).all()
+    assert json.loads(to_stored(old).header)["format_version"] == 3

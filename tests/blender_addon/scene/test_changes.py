@@ -69,6 +69,8 @@ def inventory() -> dict:
 
 
 def contents(tree) -> tuple:
+    if tree is None:  # a new material's in Blender 4.5
+        return ()
     nodes = [
         (
             node.name,

@@ -1,12 +1,12 @@
-# make demo | figures | test | test-all | bench | docs | package | constraints: all but the last set
-# up what they need in VENV first.
+# make demo | figures | truth | test | test-all | bench | docs | package | constraints: all but the
+# last set up what they need in VENV first.
 # PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS). All
 # packages have the versions of constraints/.
 PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo figures simplifications agreement test test-all lint bench docs package environment
+.PHONY: demo figures truth simplifications agreement test test-all lint bench docs package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
@@ -35,6 +35,12 @@ bench: environment
 # Measures what each part of the light model costs and is worth, and writes the page in docs/.
 simplifications: environment
 	@$(BIN)/python -m examples.simplifications
+
+# Renders skin and compares it with the light model; with ONLY=edge that alone, else the page too.
+# BESIDE has rows.csv of a run with another Blender, to stand beside this one's.
+truth: environment
+	@$(BIN)/python -m examples.truth $(if $(ONLY),--only $(ONLY),--page docs/truth.md) \
+	    $(if $(BESIDE),--beside $(BESIDE)) $(if $(OUT),--out $(OUT))
 
 # How well the solver without noise agrees with the random walk: hours, or with RAYS=1000000 half
 # an hour.

@@ -1,0 +1,1 @@
+"""What Cycles shows of a tan beside what the light model says: `make truth`."""

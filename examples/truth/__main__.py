@@ -1,0 +1,72 @@
+"""Renders skin and compares it with the light model: `python -m examples.truth [--only NAME]`.
+
+Prints what was compared, how far the two are apart and how far they may be; writes rows.csv,
+readings.csv and pictures into out/truth, and with --page docs/truth.md.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from tqdm import tqdm
+
+from examples.truth import albedo, edge, gloss, page, slab
+from examples.truth.outcome import Outcome, table, write_readings, write_rows
+from examples.truth.rendering import rendered
+from hylios.commands.shell import run
+
+COMPARISONS = {"albedo": albedo, "gloss": gloss, "edge": edge, "slab": slab}
+"""Modules with `shots()`, and `read(shots, lights)` that compares them with the model."""
+
+
+def truth(arguments: argparse.Namespace) -> None:
+    """Render, compare, print and write."""
+    started = time.monotonic()
+    names = arguments.only or list(COMPARISONS)
+    outcomes = compared(names)
+    rows = [row for outcome in outcomes.values() for row in outcome.rows]
+    readings = [reading for outcome in outcomes.values() for reading in outcome.readings]
+    seconds = time.monotonic() - started
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    machine = page.machine(seconds)
+    write_rows(arguments.out / "rows.csv", rows, machine)
+    write_readings(arguments.out / "readings.csv", readings)
+    page.draw(outcomes, arguments.out)
+    if arguments.page:
+        page.write(arguments.page, outcomes, machine, arguments.beside)
+    print(table(rows))
+    missed = sum(row.met is False for row in rows)
+    print(f"{len(rows)} rows, {missed} not met; {seconds:.0f} s, in {arguments.out.resolve()}")
+
+
+def compared(names: list[str]) -> dict[str, Outcome]:
+    """The outcome of comparisons by name."""
+    shots = {name: COMPARISONS[name].shots() for name in names}
+    every = [shot for some in shots.values() for shot in some]
+    with tqdm(every, "pictures", unit="picture", file=sys.stderr) as bar:
+        lights = rendered(every, lambda _: bar.update())
+    bar = tqdm(names, "model", file=sys.stderr)
+    return {name: COMPARISONS[name].read(shots[name], lights) for name in bar}
+
+
+def main() -> int:
+    """Read the arguments and compare."""
+    parser = argparse.ArgumentParser(
+        prog="python -m examples.truth",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--only", action="append", choices=COMPARISONS, metavar="NAME", help=", ".join(COMPARISONS)
+    )
+    parser.add_argument("--out", type=Path, default=Path("out/truth"))
+    parser.add_argument("--page", type=Path, help="page of docs to write, its pictures beside it")
+    parser.add_argument(
+        "--beside", type=Path, help="rows.csv of a run with another Blender, for the page"
+    )
+    return run(truth, parser.parse_args())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,146 @@
+"""Renders shots with Cycles, each into FOLDER/NAME.npz, in a process of its own.
+
+`python -m examples.truth.cycles SHOTS.json FOLDER`. Blender 4.5 hangs in an ordinary exit after a
+render, so this one ends otherwise.
+"""
+
+import argparse
+import json
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+import blender_addon
+from examples.demo import render
+from examples.demo.tan_lines import silence_blender
+from examples.truth.shots import FRAMES_PER_DAY, LAST_DAY, TANS, Shot
+from examples.truth.stages import STAGES
+from hylios.commands.shell import run
+from hylios.errors import InputError
+
+PASSES = {
+    "diffuse": (("Diffuse Direct", "DiffDir"), ("Diffuse Indirect", "DiffInd")),
+    "glossy": (("Glossy Direct", "GlossDir"), ("Glossy Indirect", "GlossInd")),
+}
+"""Names of passes in a file of Blender 5 and of Blender 4.5; each is to be times its colour."""
+
+COLOURS = {
+    "diffuse": ("Diffuse Color", "DiffCol"),
+    "glossy": ("Glossy Color", "GlossCol"),
+}
+
+
+def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
+    """Render shots; yields a shot's name once its file is there."""
+    standing, scratch = None, folder / "scratch.exr"
+    skin = None
+    for shot in shots:
+        stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
+        stage += (shot.space, shot.unit, shot.scale)
+        if standing != stage or skin is None:
+            skin, standing = built(shot), stage
+        set_inputs(skin, shot)
+        light = rendered(shot, scratch)
+        np.savez(folder / f"{shot.name}.npz", **light)
+        yield shot.name
+    scratch.unlink(missing_ok=True)
+
+
+def built(shot: Shot) -> bpy.types.Object:
+    """Fill an empty scene with a shot's stage; returns the skin with its tan."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    if shot.space:
+        bpy.ops.wm.set_working_color_space(working_space=shot.space, convert_colors=True)
+    scene = bpy.context.scene
+    scene.unit_settings.scale_length = shot.unit
+    skin = STAGES[shot.stage](shot)
+    settings = skin.skin_tan
+    settings.skin = shot.skin
+    exposure = settings.exposures.add()
+    exposure.unit, exposure.day, exposure.multiple = "MMD", 0.0, TANS[shot.tan].multiple
+    settings.first_day, settings.last_day = 0.0, LAST_DAY
+    settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
+    bpy.context.view_layer.objects.active = skin
+    if bpy.ops.skin_tan.apply() != {"FINISHED"}:
+        raise InputError(f"Apply failed for the shot {shot.name!r}.")
+    _set_up(scene)
+    return skin
+
+
+def frame_of(day: float) -> int:
+    """Frame of the timeline that shows a day."""
+    return 1 + round(FRAMES_PER_DAY * day)
+
+
+def _set_up(scene: bpy.types.Scene) -> None:
+    scene.render.engine = "CYCLES"
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    cycles.pixel_filter_type = "BOX"
+    cycles.sample_clamp_indirect = 0.0
+    scene.render.resolution_percentage = 100
+    render.set_file_format(scene, "MULTI_LAYER_IMAGE", "OPEN_EXR_MULTILAYER")
+    layer = scene.view_layers[0]
+    layer.use_pass_position = True
+    for kind in PASSES:
+        for part in ("direct", "indirect", "color"):
+            setattr(layer, f"use_pass_{kind}_{part}", True)
+
+
+def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
+    """Set the day and what the shot asks of the skin's node group.
+
+    Raises
+    ------
+    InputError
+        If the group has no such input.
+    """
+    bpy.context.scene.frame_set(frame_of(TANS[shot.tan].day))
+    tree = skin.material_slots[0].material.node_tree
+    (group,) = (node for node in tree.nodes if node.type == "GROUP")
+    blood = group.inputs.get("Blood")
+    if blood is None and shot.blood != 1.0:
+        raise InputError("the add-on's node group has no input Blood.")
+    if blood is not None:
+        blood.default_value = shot.blood
+
+
+def rendered(shot: Shot, scratch: Path) -> dict[str, np.ndarray]:
+    """Light in the scene's picture, linear Rec.709 (rows, columns, 3), and positions in m."""
+    scene = bpy.context.scene
+    scene.cycles.samples, scene.cycles.seed = shot.samples, shot.seed
+    scene.render.resolution_x, scene.render.resolution_y = shot.size
+    scene.render.filepath = str(scratch)
+    bpy.ops.render.render(write_still=True)
+    channels = render.read_channels(scratch)
+    light = {"combined": render.one_pass(channels, ("Combined",))[..., :3]}
+    for kind, names in PASSES.items():
+        both = sum(render.one_pass(channels, name) for name in names)
+        light[kind] = both * render.one_pass(channels, COLOURS[kind])
+    light["position"] = shot.unit * render.one_pass(channels, ("Position",))
+    return light
+
+
+def main(arguments: argparse.Namespace) -> None:
+    """Render the shots of a file, and print a shot's name when it is done."""
+    blender_addon.register()
+    shots = [Shot.of(described) for described in json.loads(arguments.shots.read_text())]
+    for name in shot_all(shots, arguments.folder):
+        print(name)
+
+
+def arguments() -> argparse.ArgumentParser:
+    """The command's parser."""
+    parser = argparse.ArgumentParser(prog="python -m examples.truth.cycles", description=__doc__)
+    parser.add_argument("shots", type=Path)
+    parser.add_argument("folder", type=Path)
+    return parser
+
+
+if __name__ == "__main__":
+    silence_blender()
+    os._exit(run(main, arguments().parse_args()))

@@ -1,0 +1,82 @@
+"""What is rendered of a skin: plain data, without Blender."""
+
+from dataclasses import asdict, dataclass
+
+TYPES = ("I", "II", "III", "IV", "V", "VI")
+
+
+@dataclass(frozen=True)
+class Tan:
+    """Sun on day 0, in minimal melanogenesis doses, and the day on which the skin is seen."""
+
+    multiple: float
+    day: float
+
+
+TANS = {
+    "untanned": Tan(0.0, 0.0),
+    "light": Tan(2.0, 7.0),
+    "dark": Tan(8.0, 10.0),
+    "faded": Tan(8.0, 30.0),
+}
+
+BLOODS = (1.0, 3.0, 8.0)
+"""Blood of both dermal layers, as multiples of the untanned skin's."""
+
+LAST_DAY, FRAMES_PER_DAY = 30.0, 4
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture of a flat skin.
+
+    Attributes
+    ----------
+    name : str
+    stage : str
+        A key of `examples.truth.stages.STAGES`.
+    skin : str
+        One of the add-on's skins.
+    tan : str
+        One of `TANS`.
+    blood : float
+        What the group's input Blood is set to.
+    angle : float
+        In degrees from the normal: of the camera, or of the light on the stage "lobe".
+    thickness : float
+        Of a slab, in mm.
+    size : tuple of int
+        Columns and rows.
+    samples, seed : int
+        For each pixel, and of chance.
+    space : str
+        Blender's working space; empty for its usual one.
+    unit : float
+        Length of a scene unit in metres.
+    scale : float
+        Scale of the object, whose mesh is so much smaller.
+    """
+
+    name: str
+    stage: str
+    skin: str
+    tan: str = "untanned"
+    blood: float = 1.0
+    angle: float = 0.0
+    thickness: float = 0.0
+    size: tuple[int, int] = (32, 32)
+    samples: int = 256
+    seed: int = 1
+    space: str = ""
+    unit: float = 1.0
+    scale: float = 1.0
+
+    @property
+    def described(self) -> dict:
+        """The shot as what JSON holds; `of` reads it."""
+        return asdict(self)
+
+    @classmethod
+    def of(cls, described: dict) -> "Shot":
+        """The shot that `described` describes."""
+        return cls(**{**described, "size": tuple(described["size"])})

@@ -1,0 +1,85 @@
+"""What the page says around its figures."""
+
+INTRODUCTION = """\
+# What Cycles shows, and what the model says
+
+`make truth` renders flat pieces of skin as the add-on makes them and compares what Cycles shows
+with the light model, which it asks directly: not the tables. The tans come by the add-on's own way,
+exposures, Apply, `tan_day` keyed, a frame set. `make truth` renders again and writes this page;
+`make truth ONLY=edge` compares one thing alone and writes into `out/truth`.
+
+Distances are CIEDE2000 unless another unit stands there, white being a white diffuser in the same
+light. Two numbers are the mean and the largest over the cases.
+"""
+
+MADE = """\
+Made with {made}.
+
+The types are I to VI; tans are untanned, light (2 minimal melanogenesis doses on day 0, seen on day
+7), dark (8 doses, day 10) and faded (8 doses, day 30); blood is 1, 3 and 8 times the untanned
+skin's in both dermal layers.
+"""
+
+ALBEDO = """\
+## Albedo
+
+Skin of a metre, far more than light travels in it, under even white light from everywhere, seen by
+a camera without perspective. By reciprocity it sees the directional-hemispherical reflectance at
+its angle, which the model gives without noise (`hylios.adding`, 16 wavelengths). The model itself
+is reciprocal but for two of its rules (`hylios/transport/angular.py`). The part that was inside is
+read from Cycles' diffuse passes of the same picture.
+
+```{image} truth_albedo.png
+:alt: Patches of six types in four tans and three bloods; inside each the colour of the model.
+:width: 100%
+```
+
+**At 70 degrees** the model's surface reflects more than Cycles', and no roughness mends it: the
+model draws the normal of a facet whatever of it the light sees, and lets no facet shadow another
+(beyond 65 degrees its gloss grows where Cycles' is held down by shadowing). What comes from inside
+is right there too, so nothing in the shader's colours can or should make up for it.
+"""
+
+EDGE = """\
+## A lit edge
+
+Half of the patch is lit from straight above, the other half lies behind a sharp screen. The model's
+light around the edge follows from how far from a pencil beam light leaves (random walk, 8
+wavelengths of 100,000 rays), integrated over the lit half. Lines are Cycles, dashed lines the
+model.
+
+```{image} truth_edge.png
+:alt: Light in three channels over the distance from the edge, for types II, IV and VI.
+:width: 100%
+```
+"""
+
+GLOSS = """\
+## Gloss
+
+A distant lamp at 8, 45 and 65 degrees, seen by a camera that sees every direction; what Cycles'
+surface reflects is averaged over the bins of the model's BRDF (10,000,000 rays at the surface
+alone). The distance is the integral of the difference over all directions, as a share of all that
+the model's surface reflects.
+
+```{image} truth_gloss.png
+:alt: The lobe in the plane of incidence, rendered and by the model.
+:width: 100%
+```
+"""
+
+SLAB = """\
+## Lit from behind
+
+A slab of skin with a distant lamp behind it, as an ear is lit. The model's slab is two skins back
+to back without a hypodermis: each with all its layers, and between them the reticular dermis that
+fills the thickness. Only fibres of the papillary dermis and melanosomes scatter in the model, so a
+thicker slab differs by what its dermis absorbs.
+
+```{image} truth_slab.png
+:alt: Light through slabs of 1.5 to 4 mm in three channels, rendered and by the model.
+:width: 100%
+```
+"""
+
+SECTIONS = {"albedo": ALBEDO, "edge": EDGE, "gloss": GLOSS, "slab": SLAB}

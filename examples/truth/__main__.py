@@ -11,12 +11,19 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from examples.truth import albedo, edge, gloss, page, slab
+from examples.truth import albedo, alike, cost, edge, gloss, page, slab
 from examples.truth.outcome import Outcome, table, write_readings, write_rows
 from examples.truth.rendering import rendered
 from hylios.commands.shell import run
 
-COMPARISONS = {"albedo": albedo, "gloss": gloss, "edge": edge, "slab": slab}
+COMPARISONS = {
+    "albedo": albedo,
+    "gloss": gloss,
+    "edge": edge,
+    "slab": slab,
+    "alike": alike,
+    "cost": cost,
+}
 """Modules with `shots()`, and `read(shots, lights)` that compares them with the model."""
 
 

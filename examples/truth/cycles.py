@@ -16,8 +16,9 @@ import numpy as np
 import blender_addon
 from examples.demo import render
 from examples.demo.tan_lines import silence_blender
-from examples.truth.shots import FRAMES_PER_DAY, LAST_DAY, TANS, Shot
-from examples.truth.stages import STAGES
+from examples.simplifications.light import seconds as processor_time
+from examples.truth.shots import DONE, FRAMES_PER_DAY, LAST_DAY, TANS, Shot
+from examples.truth.stages import STAGES, plain_material
 from hylios.commands.shell import run
 from hylios.errors import InputError
 
@@ -39,7 +40,7 @@ def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
     skin = None
     for shot in shots:
         stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
-        stage += (shot.space, shot.unit, shot.scale)
+        stage += (shot.plain, shot.space, shot.unit, shot.scale)
         if standing != stage or skin is None:
             skin, standing = built(shot), stage
         set_inputs(skin, shot)
@@ -66,6 +67,8 @@ def built(shot: Shot) -> bpy.types.Object:
     bpy.context.view_layer.objects.active = skin
     if bpy.ops.skin_tan.apply() != {"FINISHED"}:
         raise InputError(f"Apply failed for the shot {shot.name!r}.")
+    if shot.plain:
+        skin.material_slots[0].material = plain_material()
     _set_up(scene)
     return skin
 
@@ -100,6 +103,8 @@ def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
         If the group has no such input.
     """
     bpy.context.scene.frame_set(frame_of(TANS[shot.tan].day))
+    if shot.plain:
+        return
     tree = skin.material_slots[0].material.node_tree
     (group,) = (node for node in tree.nodes if node.type == "GROUP")
     blood = group.inputs.get("Blood")
@@ -110,17 +115,21 @@ def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
 
 
 def rendered(shot: Shot, scratch: Path) -> dict[str, np.ndarray]:
-    """Light in the scene's picture, linear Rec.709 (rows, columns, 3), and positions in m."""
+    """Light in the scene's picture (rows, columns, 3), linear in Blender's working space.
+
+    Also positions in m, and the processor's time in seconds.
+    """
     scene = bpy.context.scene
     scene.cycles.samples, scene.cycles.seed = shot.samples, shot.seed
     scene.render.resolution_x, scene.render.resolution_y = shot.size
     scene.render.filepath = str(scratch)
-    bpy.ops.render.render(write_still=True)
+    seconds = processor_time(lambda: bpy.ops.render.render(write_still=True))
     channels = render.read_channels(scratch)
     light = {"combined": render.one_pass(channels, ("Combined",))[..., :3]}
     for kind, names in PASSES.items():
         both = sum(render.one_pass(channels, name) for name in names)
         light[kind] = both * render.one_pass(channels, COLOURS[kind])
+    light["seconds"] = np.array(seconds)
     light["position"] = shot.unit * render.one_pass(channels, ("Position",))
     return light
 
@@ -130,7 +139,7 @@ def main(arguments: argparse.Namespace) -> None:
     blender_addon.register()
     shots = [Shot.of(described) for described in json.loads(arguments.shots.read_text())]
     for name in shot_all(shots, arguments.folder):
-        print(name)
+        print(f"{DONE}{name}")
 
 
 def arguments() -> argparse.ArgumentParser:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from examples.truth.shots import Shot
+from examples.truth.shots import DONE, Shot
 from hylios.errors import InputError
 
 LONGEST = 1800.0
@@ -34,8 +34,8 @@ def rendered(shots: Sequence[Shot], progress: Callable[[str], object] | None = N
         command = [sys.executable, "-m", "examples.truth.cycles", str(described), str(folder)]
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as blender:
             for line in blender.stdout or ():
-                if progress:
-                    progress(line.strip())
+                if progress and line.startswith(DONE):
+                    progress(line.removeprefix(DONE).strip())
             status = blender.wait(LONGEST)
         if status:
             raise InputError(f"Blender could not render the pictures (status {status}).")

@@ -23,12 +23,15 @@ TANS = {
 BLOODS = (1.0, 3.0, 8.0)
 """Blood of both dermal layers, as multiples of the untanned skin's."""
 
+DONE = "done "
+"""How the line begins that Blender's process prints for each picture."""
+
 LAST_DAY, FRAMES_PER_DAY = 30.0, 4
 
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture of a flat skin.
+    """One picture of a skin, flat on all stages but "ball".
 
     Attributes
     ----------
@@ -49,6 +52,8 @@ class Shot:
         Columns and rows.
     samples, seed : int
         For each pixel, and of chance.
+    plain : bool
+        Whether a single Principled BSDF with subsurface stands in for the add-on's material.
     space : str
         Blender's working space; empty for its usual one.
     unit : float
@@ -67,6 +72,7 @@ class Shot:
     size: tuple[int, int] = (32, 32)
     samples: int = 256
     seed: int = 1
+    plain: bool = False
     space: str = ""
     unit: float = 1.0
     scale: float = 1.0

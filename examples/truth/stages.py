@@ -1,4 +1,4 @@
-"""Flat pieces of skin with their lights and cameras, built in Blender; lengths in metres."""
+"""Pieces of skin with their lights and cameras, built in Blender; lengths in metres."""
 
 from collections.abc import Callable
 
@@ -61,11 +61,43 @@ def slab(shot: Shot) -> bpy.types.Object:
     return skin
 
 
+def ball(shot: Shot) -> bpy.types.Object:
+    """A ball of skin of 10 cm that fills the picture, under a lamp and weak light from around."""
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32, radius=0.05)
+    skin = bpy.context.object
+    bpy.ops.object.shade_smooth()
+    _camera(shot, 0.08, 30.0)
+    _lamp(60.0)
+    _world(0.2)
+    return skin
+
+
+def plain_material() -> bpy.types.Material:
+    """A single Principled BSDF with subsurface like a light skin's."""
+    material = bpy.data.materials.new("Plain")
+    if material.node_tree is None:
+        material.use_nodes = True  # Blender 4.5
+    shader = material.node_tree.nodes["Principled BSDF"]
+    shader.subsurface_method = "BURLEY"
+    values = {
+        "Base Color": (0.4, 0.26, 0.18, 1.0),
+        "Roughness": 0.316,
+        "IOR": 1.5526,
+        "Subsurface Weight": 1.0,
+        "Subsurface Radius": (24.0, 16.0, 13.0),
+        "Subsurface Scale": 0.001,
+    }
+    for name, value in values.items():
+        shader.inputs[name].default_value = value
+    return material
+
+
 STAGES: dict[str, Callable[[Shot], bpy.types.Object]] = {
     "white": white,
     "lobe": lobe,
     "edge": edge,
     "slab": slab,
+    "ball": ball,
 }
 
 

@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from hylios.adding.directions import Directions, integrals, node_counts
+from hylios.adding.film import through_film
 from hylios.adding.scattering import (
     ORDER,
     Medium,
@@ -23,6 +24,11 @@ from hylios.adding.surface import from_inside, from_outside
 from hylios.errors import InputError, require_range
 from hylios.tissue import Layer, Stack
 
+FILM_NODES = 0.2
+"""Share of nodes that are added where a film's upper face begins to reflect totally: light that the
+rough surface lets through to it falls off steeply there, within the angles that its normals turn
+light by."""
+
 KEPT = 4096
 """Optics kept, about 20 kB each at the default number of nodes."""
 
@@ -34,7 +40,7 @@ class Pattern:
     Attributes
     ----------
     ranks : tuple of int
-        Order of the refractive indices above, of the layers, and below.
+        Order of the refractive indices above, of the layers, and below, among all.
     counts : tuple of int
         Nodes between one index and the next (`Directions`).
     kinds : tuple of tuple of str
@@ -54,7 +60,7 @@ class OpticalConstants:
     """The numbers from which, with its pattern, the optics of a stack follow.
 
     `indices` are those above, of the layers, and below; where inner faces do not reflect, light
-    finds the uppermost layer's in all.
+    finds the uppermost layer's in all. `film` is that of a film on the surface, if there is one.
     """
 
     roughness: float
@@ -62,6 +68,13 @@ class OpticalConstants:
     exponential: bool
     indices: tuple[float, ...]
     anisotropies: tuple[float, ...]
+    film: float | None = None
+
+    @property
+    def all_indices(self) -> tuple[float, ...]:
+        """Refractive indices of all that light goes through, ascending."""
+        film = () if self.film is None else (self.film,)
+        return tuple(sorted({*self.indices, *film}))
 
 
 @dataclass(frozen=True)
@@ -75,9 +88,9 @@ class Optics:
     media : dict of int to Medium
         Of the layers, by number, that are one.
     mirrored, let_out
-        What the surface does to light from inside (`surface.from_inside`).
+        What the surface does to light from inside (`surface.from_inside`, `film.through_film`).
     surface, entering
-        What it does to light from outside (`surface.from_outside`).
+        What it does to light from outside (`surface.from_outside`, likewise).
     """
 
     cosines: dict[int, tuple[np.ndarray, np.ndarray]]
@@ -88,8 +101,8 @@ class Optics:
     entering: np.ndarray
 
 
-def optical_constants(stack: Stack) -> OpticalConstants:
-    """The optical constants of a stack."""
+def optical_constants(stack: Stack, film: float | None = None) -> OpticalConstants:
+    """The optical constants of a stack, with a film of a refractive index on it or without."""
     inner = tuple(layer.refractive_index for layer in stack.layers)
     if stack.readings["inner_fresnel"] == "off":
         inner = inner[:1] * len(inner)
@@ -100,6 +113,7 @@ def optical_constants(stack: Stack) -> OpticalConstants:
         exponential=stack.readings["melanosome_scattering"] == "exponential",
         indices=(stack.index_above, *inner, below),
         anisotropies=tuple(layer.anisotropy for layer in stack.layers),
+        film=None if film == stack.index_above else film,
     )
 
 
@@ -112,10 +126,14 @@ def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
         If a layer's thickness is not finite, or fibres that scatter once per traversal share a
         layer with other scatterers.
     """
-    values = sorted(set(constants.indices))
+    values = constants.all_indices
+    ranks = tuple(values.index(index) for index in constants.indices)
+    counts = list(node_counts(np.array([0.0, *values]) ** 2, nodes))
+    if constants.film is not None:
+        counts[ranks[0] + 1] += round(FILM_NODES * nodes)
     return Pattern(
-        ranks=tuple(values.index(index) for index in constants.indices),
-        counts=node_counts(np.array([0.0, *values]) ** 2, nodes),
+        ranks=ranks,
+        counts=tuple(counts),
         kinds=tuple(_kinds(layer, stack) for layer in stack.layers),
         floor=stack.readings["floor"] if stack.lambertian_floor else "open",
     )
@@ -148,10 +166,17 @@ def is_medium(kinds: tuple[str, ...]) -> bool:
 @lru_cache(maxsize=KEPT)
 def optics(constants: OpticalConstants, shared: Pattern, angles: tuple[float, ...]) -> Optics:
     """Optics of stacks with these constants and pattern, for angles of incidence in radians."""
-    made = Directions(np.array([0.0, *sorted(set(constants.indices))]) ** 2, shared.counts)
-    above, top = constants.indices[0], shared.ranks[1] + 1
-    mirrored, let_out = from_inside(made, top, above, constants.roughness)
-    surface, entering = from_outside(made, top, above, constants.roughness, np.array(angles))
+    values = constants.all_indices
+    made = Directions(np.array([0.0, *values]) ** 2, shared.counts)
+    above, top, roughness = constants.indices[0], shared.ranks[1] + 1, constants.roughness
+    if constants.film is None:
+        mirrored, let_out = from_inside(made, top, above, roughness)
+        surface, entering = from_outside(made, top, above, roughness, np.array(angles))
+    else:
+        film = values.index(constants.film) + 1
+        mirrored, let_out, surface, entering = through_film(
+            made, top, film, above, roughness, np.array(angles)
+        )
     return Optics(
         cosines={rank: made.cosines(rank + 1) for rank in set(shared.ranks[1:-1])},
         media=_media(made, constants, shared),

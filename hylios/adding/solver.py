@@ -19,7 +19,7 @@ from hylios.adding.optics import (
     pattern,
 )
 from hylios.adding.scattering import once_per_traversal, response, stacked
-from hylios.adding.surface import fresnel
+from hylios.adding.surface import LEAK, fresnel
 from hylios.errors import InputError, require_range, require_whole
 from hylios.threads import one_thread
 from hylios.tissue import Layer, Stack
@@ -31,10 +31,6 @@ NODES = 22
 
 TOGETHER = 64
 """Stacks solved at once, for their matrices to stay in a processor's cache."""
-
-LEAK = 1e-14
-"""Share of light that is lost wherever reflections between two parts are added up. So light that
-is trapped between them and meets nothing there, which none gets to, has an end."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +76,11 @@ class Below:
 
 
 def solve(
-    stacks: Sequence[Stack], angle: float | Sequence[float] = 8.0, nodes: int = NODES
+    stacks: Sequence[Stack],
+    angle: float | Sequence[float] = 8.0,
+    nodes: int = NODES,
+    *,
+    film: float | None = None,
 ) -> Reflectance:
     """Reflectance and absorptance of stacks, without random numbers.
 
@@ -98,6 +98,9 @@ def solve(
         Of incidence, in degrees, 0 to 89.99; several take little longer than one.
     nodes : int
         Directions, 6 to 200.
+    film : float, optional
+        Refractive index of a film on the surface (`hylios.adding.film`), 1 to 2: 1.33 for water,
+        1.4 to 1.47 for oil or sunscreen. What it reflects is the surface's. None by default.
 
     Raises
     ------
@@ -112,8 +115,10 @@ def solve(
         raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
     for degrees in angles:
         require_range("angle of incidence", float(degrees), 0.0, 89.99, "degrees")
+    if film is not None:
+        film = float(require_range("refractive index of the film", film, 1.0, 2.0))
     radians = tuple(np.radians(angles).tolist())
-    constants = [optical_constants(stack) for stack in stacks]
+    constants = [optical_constants(stack, film) for stack in stacks]
     groups: dict[Pattern, list[int]] = {}
     for number, (stack, own) in enumerate(zip(stacks, constants, strict=True)):
         groups.setdefault(pattern(stack, own, nodes), []).append(number)

@@ -34,18 +34,19 @@ def spectra(
     specimens: Sequence[Specimen],
     wavelengths: Iterable[float],
     *,
-    angle: float = 8.0,
+    angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
+    film: float | None = None,
     model: Model | None = None,
 ) -> Reflectance:
-    """Reflectance of S specimens at W wavelengths in nm, solved together; its arrays are (S, W).
+    """Reflectance of S specimens at W wavelengths in nm, solved together.
 
-    Parameters and errors as in `spectrum`, for one angle.
+    Its arrays are (S, W), or (A, S, W) for several angles. Parameters and errors as in `spectrum`.
     """
     row = [float(wavelength) for wavelength in wavelengths]
     stacks = [Stack.of(specimen, nm, model) for specimen in specimens for nm in row]
-    solved = solve(stacks, float(angle), nodes)
-    shape = len(specimens), len(row)
+    solved = solve(stacks, angle, nodes, film=film)
+    shape = *np.shape(angle), len(specimens), len(row)
     shares = solved.surface, solved.subsurface, solved.transmittance
     return Reflectance(*(share.reshape(shape) for share in shares))
 
@@ -56,6 +57,7 @@ def spectrum(
     *,
     angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
+    film: float | None = None,
     model: Model | None = None,
 ) -> Spectrum:
     """A specimen's spectrum, as `hylios.transport.simulate.spectrum` without its noise.
@@ -64,7 +66,7 @@ def spectrum(
     ----------
     wavelengths : iterable of float
         nm, 250 to 2500.
-    angle, nodes
+    angle, nodes, film
         As in `solve`.
     model
         As in `hylios.tissue.Stack.of`.
@@ -84,5 +86,5 @@ def spectrum(
     """
     model = model or Model()
     row = require_wavelengths(wavelengths, model.spectra)
-    solved = solve([Stack.of(specimen, nm, model) for nm in row], angle, nodes)
+    solved = solve([Stack.of(specimen, nm, model) for nm in row], angle, nodes, film=film)
     return Spectrum(solved.surface, solved.subsurface, solved.transmittance, row)

@@ -10,6 +10,10 @@ from hylios.adding.directions import Directions, interpolation, legendre_roots
 FLAT = 1e-6
 """Roughness up to which a surface is taken as flat."""
 
+LEAK = 1e-14
+"""Share of light that is lost wherever reflections between two parts are added up. So light that
+is trapped between them and meets nothing there, which none gets to, has an end."""
+
 TILTS, TURNS = 4, 5
 """Normals over which the rough surface is averaged: polar angles, and azimuths, of each part of
 their ranges in which the same happens to a ray. With many nodes more azimuths are taken, for light
@@ -81,6 +85,45 @@ def from_outside(
     )
     rows = interpolation(made, squared * (1.0 - beyond**2), crossed)
     return reflected.sum(axis=1), rows[:, :count]
+
+
+def scattered(
+    made: Directions, cosine: np.ndarray, segments: int, beyond: int, roughness: float, turns: int
+):
+    """Where the surface sends light (R,) that meets it in a medium with nodes, to another such.
+
+    Parameters
+    ----------
+    cosine : (R,) array
+        Of the light, in the medium that it comes from.
+    segments, beyond : int
+        Of the medium that it comes from, with N nodes, and of that beyond the surface, with M.
+    turns : int
+        Azimuths of the normals.
+
+    Returns
+    -------
+    (R, N), (R, M) arrays
+        Shares reflected and let through, by direction.
+    """
+    squared, squared_beyond = made.bounds[segments], made.bounds[beyond]
+    index, index_beyond = np.sqrt(squared), np.sqrt(squared_beyond)
+    if roughness <= FLAT:
+        reflected, passed = fresnel(cosine, index, index_beyond)
+        reflected, crossed = reflected[:, None], 1.0 - reflected[:, None]
+        back, onwards = cosine[:, None], passed[:, None]
+    else:
+        edges, edges_beyond = (
+            np.sqrt(np.maximum(1.0 - made.bounds[1 : last + 1] / made.bounds[last], 0.0))
+            for last in (segments, beyond)
+        )
+        reflected, crossed, back, onwards = _rough(
+            cosine, index / index_beyond, roughness, edges, edges_beyond, (TILTS, turns)
+        )
+    return (
+        interpolation(made, squared * (1.0 - back**2), reflected)[:, : made.within(segments)],
+        interpolation(made, squared_beyond * (1.0 - onwards**2), crossed)[:, : made.within(beyond)],
+    )
 
 
 def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):

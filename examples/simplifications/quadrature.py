@@ -1,6 +1,7 @@
 """Chooses the wavelengths that hylios ships: `python -m examples.simplifications.quadrature`.
 
-Writes hylios/quadrature.csv, in a minute and the same every time.
+Writes hylios/quadrature.csv and the components of skin's spectra hylios/lab/skin_spectra.csv, in a
+minute and the same every time.
 """
 
 import argparse
@@ -16,7 +17,7 @@ from examples.simplifications.light import GRID, metrics, reflectances
 from examples.simplifications.skins import random_skins
 from examples.simplifications.variants import whole
 from hylios.files import written_beside
-from hylios.lab import colour
+from hylios.lab import colour, skin_spectra
 from hylios.lab.quadrature_choice import Colours, choose
 from hylios.quadrature import COLUMNS, FEWEST, MOST, TABLE, Quadrature
 
@@ -63,13 +64,24 @@ def write(quadratures: Sequence[Quadrature], path: Path) -> None:
                 writer.writerow([quadrature.wavelengths.size, f"{wavelength:g}", *numbers])
 
 
+def write_components(reflectances: np.ndarray, path: Path) -> None:
+    """Write the components of skin's spectra (S, N) on `GRID` as CSV."""
+    parts = skin_spectra.components(reflectances)
+    with written_beside(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["wavelength_nm", *range(1, parts.shape[1] + 1)])
+        for wavelength, row in zip(GRID, parts, strict=True):
+            writer.writerow([f"{wavelength:g}", *(f"{number:.6f}" for number in row)])
+
+
 def main() -> None:
     """Choose and write."""
     allowed = (GRID >= FIRST) & (GRID <= LAST)
-    quadratures = choose(skin_colours(), MOST, allowed=allowed)
-    path = Path(hylios.__file__).parent / TABLE
-    write(quadratures[FEWEST - 1 :], path)
-    print(f"wrote {path}")
+    skins = skin_colours()
+    package = Path(hylios.__file__).parent
+    write_components(skins.reflectances, package / "lab" / skin_spectra.TABLE)
+    write(choose(skins, MOST, allowed=allowed)[FEWEST - 1 :], package / TABLE)
+    print(f"wrote {package / TABLE} and {package / 'lab' / skin_spectra.TABLE}")
 
 
 if __name__ == "__main__":

@@ -46,11 +46,23 @@ def xyz_weights(wavelengths: np.ndarray) -> NDArray[np.float64]:
     InputError
         If the wavelengths do not ascend.
     """
+    grid, weights = _observer_under_daylight()
+    return weights @ hats(grid, wavelengths).T
+
+
+def hats(grid: np.ndarray, wavelengths: np.ndarray) -> NDArray[np.float64]:
+    """Values (W, N) on a grid (N,) of what is 1 at one of the wavelengths (W,), 0 at the others.
+
+    They are linear between the wavelengths and constant beyond them.
+
+    Raises
+    ------
+    InputError
+        If the wavelengths do not ascend.
+    """
     wavelengths = np.asarray(wavelengths, dtype=float)
     _require_ascending(wavelengths)
-    grid, weights = _observer_under_daylight()
-    hats = np.array([np.interp(grid, wavelengths, row) for row in np.eye(wavelengths.size)])
-    return weights @ hats.T
+    return np.array([np.interp(grid, wavelengths, row) for row in np.eye(wavelengths.size)])
 
 
 def _require_ascending(wavelengths: np.ndarray) -> None:

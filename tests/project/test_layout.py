@@ -15,6 +15,7 @@ ALLOWED = {
     "hylios": {"numpy"},
     "hylios/commands": {"numpy", "tqdm"},
     "hylios/lab/colour.py": {"numpy", "colour"},
+    "hylios/lab/illuminants.py": {"numpy", "colour"},
     "hylios/lab/predecessors": {"numpy", "numba", "scipy"},
     "hylios/lab/pictures.py": {"numpy", "matplotlib"},
     "hylios/lab/fit.py": {"numpy", "scipy"},

@@ -73,8 +73,7 @@ class OpticalConstants:
     @property
     def all_indices(self) -> tuple[float, ...]:
         """Refractive indices of all that light goes through, ascending."""
-        film = () if self.film is None else (self.film,)
-        return tuple(sorted({*self.indices, *film}))
+        return _ascending(self.indices, self.film)
 
 
 @dataclass(frozen=True)
@@ -126,17 +125,30 @@ def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
         If a layer's thickness is not finite, or fibres that scatter once per traversal share a
         layer with other scatterers.
     """
-    values = constants.all_indices
-    ranks = tuple(values.index(index) for index in constants.indices)
-    counts = list(node_counts(np.array([0.0, *values]) ** 2, nodes))
-    if constants.film is not None:
-        counts[ranks[0] + 1] += round(FILM_NODES * nodes)
+    ranks, counts = _ranks_and_counts(constants.indices, constants.film, nodes)
     return Pattern(
         ranks=ranks,
-        counts=tuple(counts),
+        counts=counts,
         kinds=tuple(_kinds(layer, stack) for layer in stack.layers),
         floor=stack.readings["floor"] if stack.lambertian_floor else "open",
     )
+
+
+def _ascending(indices: tuple[float, ...], film: float | None) -> tuple[float, ...]:
+    return tuple(sorted({*indices, *(() if film is None else (film,))}))
+
+
+@lru_cache(maxsize=KEPT)
+def _ranks_and_counts(
+    indices: tuple[float, ...], film: float | None, nodes: int
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """`Pattern.ranks` and `Pattern.counts` of a stack with these refractive indices."""
+    values = _ascending(indices, film)
+    ranks = tuple(values.index(index) for index in indices)
+    counts = list(node_counts(np.array([0.0, *values]) ** 2, nodes))
+    if film is not None:
+        counts[ranks[0] + 1] += round(FILM_NODES * nodes)
+    return ranks, tuple(counts)
 
 
 def _kinds(layer: Layer, stack: Stack) -> tuple[str, ...]:

@@ -90,6 +90,7 @@ def left_out(layer: Layer) -> float:
     return LEFT_OUT["complexes" if layer.complex_radius > 0.0 else "single"]
 
 
+@lru_cache(maxsize=4096)
 def _survival_of_complex(survival: float, held: float, by_diameter: bool) -> float:
     """Probability of leaving unabsorbed a sphere whose diameter is that many minor axes.
 

@@ -57,12 +57,7 @@ def survival_in_melanosome(layer: Layer, melanin_index: float) -> float:
     aspect, ratio = _looked_up(layer, melanin_index)
     require_range("minor to major axis of melanosomes", aspect, LEAST_ASPECT, 1.0)
     require_range("refractive index of melanosomes relative to the tissue", ratio, 1.0, MOST_RATIO)
-    lengths, weights = _table()
-    survivals = (weights * np.exp(-layer.melanin_absorption * layer.semi_minor * lengths)).sum(
-        axis=2
-    )
-    along, across = _interpolating(aspect, ratio)
-    return float(np.clip(along @ survivals @ across, 0.0, 1.0))
+    return _survival(float(layer.melanin_absorption * layer.semi_minor), aspect, ratio)
 
 
 def is_tabulated(layer: Layer, melanin_index: float) -> bool:
@@ -74,6 +69,15 @@ def is_tabulated(layer: Layer, melanin_index: float) -> bool:
 def _looked_up(layer: Layer, melanin_index: float) -> tuple[float, float]:
     """Semi-minor to semi-major axis, and refractive index inside to outside."""
     return layer.semi_minor / layer.semi_major, melanin_index / layer.refractive_index
+
+
+@lru_cache(maxsize=4096)
+def _survival(depth: float, aspect: float, ratio: float) -> float:
+    """Survival where melanin absorbs that much over the semi-minor axis; states share it."""
+    lengths, weights = _table()
+    survivals = (weights * np.exp(-depth * lengths)).sum(axis=2)
+    along, across = _interpolating(aspect, ratio)
+    return float(np.clip(along @ survivals @ across, 0.0, 1.0))
 
 
 @lru_cache(maxsize=1024)

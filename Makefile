@@ -15,7 +15,8 @@ demo: environment
 	@$(BIN)/python -m examples.demo
 
 figures: environment
-	@$(BIN)/python -m examples.figures $(if $(PEOPLE),--people "$(PEOPLE)") $(FIGURES)
+	@$(BIN)/python -m examples.figures $(if $(PEOPLE),--people "$(PEOPLE)") \
+	    $(if $(PAGE),--page $(PAGE)) $(FIGURES)
 
 lint: environment
 	$(BIN)/ruff check .

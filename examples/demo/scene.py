@@ -110,7 +110,7 @@ def build(subject: Subject, lamps: Sequence[Lamp] = LAMPS) -> bpy.types.Object:
     scene.render.resolution_x, scene.render.resolution_y = SIZE
     for lamp in lamps:
         _light(lamp, subject)
-    scene.world = _backdrop(light=0.22)
+    scene.world = backdrop(light=0.22)
     scene.view_settings.view_transform = "Standard"
     return obj
 
@@ -181,7 +181,7 @@ def _placed(name: str, data, subject: Subject, turned: float, up: float, distanc
     return obj
 
 
-def _backdrop(light: float) -> bpy.types.World:
+def backdrop(light: float) -> bpy.types.World:
     """Even grey light from all around; the camera sees a grey that darkens to the corners."""
     world = bpy.data.worlds.new("Backdrop")
     world.use_nodes = True

@@ -20,10 +20,12 @@ from examples.figures import (
     hyperspectral,
     melanin_forms,
     people,
+    picture_page,
     predecessors,
     renders,
     report,
     sensitivity,
+    spectral_renders,
     tanning_claims,
 )
 from examples.figures.light import Effort, Task
@@ -44,6 +46,7 @@ GROUPS = (
     dose_responses,
     tanning_claims,
     people,
+    spectral_renders,
     renders,
 )
 """Modules with FIGURES, `tasks(effort)` that computes and `draw(results, folder)` that draws."""
@@ -63,6 +66,7 @@ def main() -> int:
         "--people", type=Path, help="measured skin to draw beside ours: CSV of wavelength_nm,s1,..."
     )
     parser.add_argument("--out", type=Path, default=Path("out/figures"))
+    parser.add_argument("--page", type=Path, help="page of docs for the rendered figures")
     return run(figures, parser.parse_args())
 
 
@@ -72,7 +76,13 @@ def figures(arguments: argparse.Namespace) -> None:
     require_whole("seed", arguments.seed, 0, 2**32 - 1)
     groups = groups_with(arguments.names)
     measured = read_people(arguments.people) if arguments.people else None
-    effort = Effort(arguments.rays, arguments.seed, arguments.threads, measured)
+    every = [figure for group in groups for figure in group.FIGURES]
+    wanted = {
+        figure for figure in every for name in arguments.names or every if matches(name, figure)
+    }
+    effort = Effort(
+        arguments.rays, arguments.seed, arguments.threads, measured, tuple(sorted(wanted))
+    )
     arguments.out.mkdir(parents=True, exist_ok=True)
     started = time.monotonic()
     work = {group: group.tasks(effort) for group in groups}
@@ -84,6 +94,8 @@ def figures(arguments: argparse.Namespace) -> None:
         f"{effort.seed}; made in {seconds:.0f} s."
     )
     report.write(arguments.out / "report.md", rows, heading)
+    if arguments.page:
+        picture_page.write(arguments.page, rows, arguments.out)
     missed = [row for row in rows if row.met is False]
     print(
         f"Made in {seconds:.0f} s, in {arguments.out.resolve()}; report.md has {len(rows)} lines."

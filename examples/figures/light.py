@@ -30,12 +30,20 @@ Tick = Callable[[float], object]
 
 @dataclass(frozen=True)
 class Effort:
-    """Rays per wavelength, seed, threads (all cores if None), and measured people, if any."""
+    """Rays per wavelength, seed, threads (all cores if None), and measured people, if any.
+
+    `figures` are those to draw, all if there are none; groups of many pictures heed it.
+    """
 
     rays: int = THESIS_RAYS
     seed: int = 1
     threads: int | None = None
     people: People | None = None
+    figures: tuple[str, ...] = ()
+
+    def wanted(self, figures: Sequence[str]) -> tuple[str, ...]:
+        """Those of a group's figures that are to be drawn."""
+        return tuple(name for name in figures if not self.figures or name in self.figures)
 
 
 @dataclass(frozen=True)

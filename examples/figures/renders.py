@@ -29,6 +29,7 @@ from examples.figures.render_claims import (
 from examples.figures.render_results import Result, result
 from examples.figures.render_sheet import sheet
 from examples.figures.shots import UV, Shot
+from examples.figures.spectral_shots import SpectralShot
 from hylios.burley import burley_width
 from hylios.errors import InputError
 from hylios.skin import Skin
@@ -83,13 +84,13 @@ def tasks(effort: Effort) -> dict[str, Task]:
     """
     if find_spec("bpy") is None:
         raise InputError("figures 6.24 to 6.29 need Blender's Python module bpy.")
-    wanted = shots.shots()
+    wanted = of_figures(effort.wanted(FIGURES))
 
     def work(tick: Tick) -> list[Result]:
         with tempfile.TemporaryDirectory() as folder:
             return rendered(wanted, Path(folder), effort, tick)
 
-    skins = len(shots.skins())
+    skins = len(_colour_tables(wanted))
     return {"renders": Task(work, skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted))}
 
 
@@ -111,6 +112,11 @@ def rendered(
     return [result(shot, skins[shot.table], tables[shot.table], folder) for shot in wanted]
 
 
+def of_figures(figures: Sequence[str]) -> list[Shot]:
+    """The shots of some figures."""
+    return [shot for shot in shots.shots() if shot.name.split()[0] in figures]
+
+
 def _colour_tables(wanted: Sequence[Shot]) -> list[str]:
     return sorted({"low" if shot.table == UV else shot.table for shot in wanted})
 
@@ -122,15 +128,21 @@ def table_of(skin: Skin, effort: Effort, tick: Tick) -> SkinTable:
     return table
 
 
-def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], tick: Tick) -> None:
-    """Render shots into a folder that has their tables.
+def run_blender(
+    wanted: Sequence[Shot] | Sequence[SpectralShot],
+    folder: Path,
+    options: Sequence[str],
+    tick: Tick,
+    module: str = "examples.figures.scenes",
+) -> None:
+    """Render shots into a folder that has what they need, by a module that is a command.
 
     Raises
     ------
     InputError
         If that fails; Blender's process has said why.
     """
-    command = [sys.executable, "-m", "examples.figures.scenes", str(folder), *options]
+    command = [sys.executable, "-m", module, str(folder), *options]
     with subprocess.Popen(
         [*command, *(shot.name for shot in wanted)], stdout=subprocess.PIPE, text=True
     ) as blender:
@@ -143,17 +155,15 @@ def run_blender(wanted: Sequence[Shot], folder: Path, options: Sequence[str], ti
 
 def draw(results: Mapping[str, Sequence[Result]], folder: Path) -> list[report.Row]:
     """Draw the figures; returns what they say."""
-    by_name = {result.shot.name: result for result in results["renders"]}
-    by_figure = {
-        figure: [result for name, result in by_name.items() if name.startswith(figure)]
-        for figure in FIGURES
-    }
+    by_figure: dict[str, list[Result]] = {}
+    for drawn in results["renders"]:
+        by_figure.setdefault(drawn.shot.name.split()[0], []).append(drawn)
     rows = [*readings_rows(by_figure)]
-    for figure, drawn in zip(
-        FIGURES, (schedules, plain, matched, strong, face, month), strict=True
-    ):
-        panels, more = drawn(by_figure[figure])
+    drawings = dict(zip(FIGURES, (schedules, plain, matched, strong, face, month), strict=True))
+    for figure, drawn in by_figure.items():
+        panels, more = drawings[figure](drawn)
         sheet(HEADINGS[figure], panels, folder / f"{figure}.png")
         rows += more
-    rows.append(mild_beside_strong(by_figure["6.27"], by_figure["6.28"]))
+    if {"6.27", "6.28"} <= set(by_figure):
+        rows.append(mild_beside_strong(by_figure["6.27"], by_figure["6.28"]))
     return sorted(rows, key=lambda row: FIGURES.index(row.where))

@@ -46,6 +46,8 @@ class Stage:
         Colours are read within `reach` of `centre`, in metres.
     capped : bool
         Whether she wears a swim cap.
+    dim : float, optional
+        Even light from all around, where it is not the usual.
     """
 
     subject: scene.Subject
@@ -55,6 +57,7 @@ class Stage:
     centre: tuple[float, float, float]
     reach: float
     capped: bool = False
+    dim: float | None = None
 
 
 def stages(wheel: Path | None) -> dict[str, Stage]:
@@ -129,10 +132,36 @@ def _with_suzanne() -> dict[str, Stage]:
     }
 
 
+BEHIND = (
+    scene.Lamp("Behind", 142.0, 0.25, 0.35, 5.0),
+    scene.Lamp("Side", -105.0, 0.30, 0.5, 0.9),
+)
+HIGH = (scene.Lamp("Sun", 25.0, 1.6, 0.25, 2.0), scene.Lamp("Sky", -30.0, 0.8, 2.5, 0.35))
+
+
+def spectral_stages(wheel: Path | None) -> dict[str, Stage]:
+    """Stages of figures 6.9 to 6.12, 6.19 and 6.20: the face in two lights, and a back outdoors."""
+    usual = stages(wheel)
+    face, back = usual["face"], usual["sunscreen"]
+    on_shoulder = Placement((0.085, 0.0, 1.29), 0.62)
+    if wheel is None:
+        on_shoulder = Placement((0.04, 0.0, 0.04), 0.4)
+    outdoors = replace(back.subject, cloth=sunscreen_at(on_shoulder))
+    if wheel is not None:
+        outdoors = replace(outdoors, target=(0.02, 0.0, 1.27), height=0.36)
+    return {
+        "face": replace(face, lamps=RAKING),
+        "lit from behind": replace(face, lamps=BEHIND, dim=0.03),
+        "beach": replace(back, subject=outdoors, lamps=HIGH, reach=0.2),
+    }
+
+
 def built(stage: Stage) -> bpy.types.Object:
     """Fill an empty scene with a stage; returns what tans."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     obj = scene.build(stage.subject, stage.lamps)
+    if stage.dim is not None:
+        bpy.context.scene.world = scene.backdrop(light=stage.dim)
     for _ in range(stage.parts):
         obj.data.materials.append(None)
     obj.data.polygons.foreach_set("material_index", _parts_of_faces(obj.data, stage))

@@ -1,4 +1,4 @@
-"""Renders shots with Cycles, each into FOLDER/NAME.npz, in a process of its own.
+"""Renders shots with Cycles (or EEVEE), each into FOLDER/NAME.npz, in a process of its own.
 
 `python -m examples.truth.cycles SHOTS.json FOLDER`. Blender 4.5 hangs in an ordinary exit after a
 render, so this one ends otherwise.
@@ -40,7 +40,7 @@ def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
     skin = None
     for shot in shots:
         stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
-        stage += (shot.plain, shot.space, shot.unit, shot.scale)
+        stage += (shot.plain, shot.engine, shot.space, shot.unit, shot.scale)
         if standing != stage or skin is None:
             skin, standing = built(shot), stage
         set_inputs(skin, shot)
@@ -69,7 +69,7 @@ def built(shot: Shot) -> bpy.types.Object:
         raise InputError(f"Apply failed for the shot {shot.name!r}.")
     if shot.plain:
         skin.material_slots[0].material = plain_material()
-    _set_up(scene)
+    _set_up(scene, shot.engine)
     return skin
 
 
@@ -78,8 +78,8 @@ def frame_of(day: float) -> int:
     return 1 + round(FRAMES_PER_DAY * day)
 
 
-def _set_up(scene: bpy.types.Scene) -> None:
-    scene.render.engine = "CYCLES"
+def _set_up(scene: bpy.types.Scene, engine: str) -> None:
+    scene.render.engine = engine
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = False
@@ -117,16 +117,17 @@ def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
 def rendered(shot: Shot, scratch: Path) -> dict[str, np.ndarray]:
     """Light in the scene's picture (rows, columns, 3), linear in Blender's working space.
 
-    Also positions in m, and the processor's time in seconds.
+    Also positions in m, and the processor's time in seconds. EEVEE gives no parts of the light.
     """
     scene = bpy.context.scene
+    scene.eevee.taa_render_samples = shot.samples
     scene.cycles.samples, scene.cycles.seed = shot.samples, shot.seed
     scene.render.resolution_x, scene.render.resolution_y = shot.size
     scene.render.filepath = str(scratch)
     seconds = processor_time(lambda: bpy.ops.render.render(write_still=True))
     channels = render.read_channels(scratch)
     light = {"combined": render.one_pass(channels, ("Combined",))[..., :3]}
-    for kind, names in PASSES.items():
+    for kind, names in PASSES.items() if shot.engine == "CYCLES" else ():
         both = sum(render.one_pass(channels, name) for name in names)
         light[kind] = both * render.one_pass(channels, COLOURS[kind])
     light["seconds"] = np.array(seconds)

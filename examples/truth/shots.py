@@ -54,6 +54,8 @@ class Shot:
         For each pixel, and of chance.
     plain : bool
         Whether a single Principled BSDF with subsurface stands in for the add-on's material.
+    engine : str
+        Blender's name of it.
     space : str
         Blender's working space; empty for its usual one.
     unit : float
@@ -73,6 +75,7 @@ class Shot:
     samples: int = 256
     seed: int = 1
     plain: bool = False
+    engine: str = "CYCLES"
     space: str = ""
     unit: float = 1.0
     scale: float = 1.0

@@ -82,4 +82,42 @@ thicker slab differs by what its dermis absorbs.
 ```
 """
 
-SECTIONS = {"albedo": ALBEDO, "edge": EDGE, "gloss": GLOSS, "slab": SLAB}
+ILLUMINANTS = """\
+## Other lamps
+
+A product of three numbers of albedo and three of a lamp is no spectrum times a spectrum. Shown is a
+table for D65 under a lamp of an illuminant's colour, said the reflected spectrum under that
+illuminant; both are adapted to the lamp's white (Bradford).
+"""
+
+ALIKE = """\
+## What must not matter
+
+Blender's working space, the length of a scene unit and the scale of the object, each beside the
+usual picture of the same skin. A studio's own OpenColorIO configuration is held by a test
+(`tests/blender_addon/scene/test_working_spaces.py`).
+"""
+
+COST = """\
+## Time
+
+Processor time of a picture of a ball of skin beside the same with one plain Principled BSDF with
+subsurface, five times by turns: the shortest of either, and the largest ratio of a turn.
+"""
+
+EEVEE = """\
+## EEVEE
+
+The half-lit patch in EEVEE and in Cycles, 3 mm and more from the edge of the light, and nearer.
+"""
+
+SECTIONS = {
+    "albedo": ALBEDO,
+    "edge": EDGE,
+    "gloss": GLOSS,
+    "slab": SLAB,
+    "illuminants": ILLUMINANTS,
+    "alike": ALIKE,
+    "cost": COST,
+    "eevee": EEVEE,
+}

@@ -9,7 +9,7 @@ import pytest
 
 import blender_addon
 from examples.demo import render
-from examples.truth import albedo, cycles, gloss, model
+from examples.truth import albedo, alike, cycles, gloss, illuminants, model
 from examples.truth.outcome import Reading, Row, markdown, read_rows, write_rows
 from examples.truth.shots import Shot
 
@@ -92,6 +92,14 @@ def test_the_surface_s_lobe_holds_all_that_it_reflects():
     reflected = (lobe.surface * lobe.projected_solid_angle).sum()
     assert reflected == pytest.approx((of.total - of.subsurface)[0].mean(), abs=0.003)
     assert not lobe.subsurface.any()
+
+
+def test_white_stays_white_under_any_lamp_and_in_any_space():
+    for lamp in illuminants.LAMPS:
+        assert illuminants.under(np.ones(3), lamp) == pytest.approx(1.0, abs=2e-3)
+    assert illuminants.under(np.array([0.5, 0.3, 0.2]), "A") != pytest.approx([0.5, 0.3, 0.2])
+    for space in alike.SPACES.values():
+        assert alike.in_rec709(np.full(3, 0.4), space) == pytest.approx(0.4, abs=1e-3)
 
 
 def reading(*distances):

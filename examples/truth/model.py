@@ -40,15 +40,11 @@ def skin(name: str) -> Skin:
 
 
 def specimen(name: str, tan: str, blood: float = 1.0) -> Specimen:
-    """A skin with one of `TANS` and so many times its blood in both dermal layers."""
+    """A skin with one of `TANS` and so many times its blood; what is added is arterial."""
     own, seen = skin(name), TANS[tan]
     exposures = Exposures([0], [seen.multiple * own.mmd])
-    tanned = own.at(own.states(exposures, [24.0 * seen.day])[0])
-    return replace(
-        tanned,
-        papillary_blood=blood * tanned.papillary_blood,
-        reticular_blood=blood * tanned.reticular_blood,
-    )
+    state = own.states(exposures, [24.0 * seen.day])[0]
+    return own.at([*state[:4], blood])
 
 
 def albedo(of: Specimen, angles: Sequence[float]) -> Albedo:

@@ -21,7 +21,7 @@ TANS = {
 }
 
 BLOODS = (1.0, 3.0, 8.0)
-"""Blood of both dermal layers, as multiples of the untanned skin's."""
+"""Blood of both dermal layers, as multiples of the untanned skin's; what is added is arterial."""
 
 DONE = "done "
 """How the line begins that Blender's process prints for each picture."""

@@ -17,7 +17,7 @@ Made with {made}.
 
 The types are I to VI; tans are untanned, light (2 minimal melanogenesis doses on day 0, seen on day
 7), dark (8 doses, day 10) and faded (8 doses, day 30); blood is 1, 3 and 8 times the untanned
-skin's in both dermal layers.
+skin's in both dermal layers, what is added being arterial (an ESTIMATE, `hylios/skin/skin.py`).
 """
 
 ALBEDO = """\

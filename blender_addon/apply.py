@@ -1,7 +1,6 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
 import bpy
-import numpy as np
 
 from hylios.errors import InputError, require_range
 
@@ -9,11 +8,10 @@ from .model import doses
 from .model.settings import TanSettings, check_frames
 from .model.tan import Tan, tan_of
 from .props import settings_of
-from .scene import attributes, first_version, images, materials, nodes, timeline
+from .scene import attributes, first_version, images, layout_1, materials, nodes, timeline
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
-
-NO_PROFILE = np.zeros((1, 1, 3), np.float32)
+from .scene.plan import LOOK
 
 
 def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
@@ -37,6 +35,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     with Changes() as changes:
         skin = materials.prepare(obj)
         first_version.take_over(skin.group, changes)
+        layout_1.take_over(skin.group, skin.trees(), changes)
         made = nodes.made_images(skin.group)
         sampled = _sampled(tan, obj, unit)
         timeline.key_days(
@@ -48,6 +47,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         )
         replaced = nodes.update(skin.group, sampled, changes)
         said = skin.attach(obj, changes)
+        nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         return " ".join([said, *_remarks(obj, skin, values, tan), *_on_kept(kept)])
 
@@ -88,17 +88,27 @@ def _scene_unit(scene: bpy.types.Scene) -> float:
 
 
 def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
-    has_profile = tan.profile_width is not None
+    history, look = tan.history, tan.look
     return nodes.Sampled(
-        colour=images.packed_image(f"Skin Tan Colour {obj.name}", tan.colour, is_colour=True),
-        width=images.packed_image(
-            f"Skin Tan Width {obj.name}",
-            NO_PROFILE if tan.profile_width is None else tan.profile_width,
-            is_colour=False,
+        states=images.packed_image(
+            f"Skin Tan States {obj.name}", history.coordinates, is_colour=False
         ),
-        has_profile=has_profile,
-        first_day=tan.first_day,
-        last_day=tan.last_day,
+        places=images.packed_image(f"Skin Tan Places {obj.name}", history.places, is_colour=False),
+        look={
+            role: images.shared_image(f"Skin Tan Look {name}", values, is_colour=role == "colour")
+            for (role, name), values in zip(
+                LOOK.items(), (look.colour, look.bend, look.bow, look.near, look.far), strict=True
+            )
+        },
+        melanin=look.melanin,
+        blood=look.blood,
+        thickness=look.thickness,
+        level=look.level,
+        near_weight=look.near_weight,
+        roughness=look.roughness,
+        has_profile=look.has_profile,
+        first_day=history.first_day,
+        last_day=history.last_day,
         mask_attribute=settings_of(obj).mask_attribute,
         scene_unit=unit,
     )
@@ -116,7 +126,7 @@ def _remarks(
             f"The tan does not show: nodes were removed from {skin.group.name!r}: "
             f"{', '.join(removed)}."
         )
-    if tan.profile_width is not None and nodes.has_own_shader(skin.group):
+    if tan.look.has_profile and nodes.has_own_shader(skin.group):
         remarks.append(
             f"The Principled BSDF was removed from {skin.group.name!r}: subsurface scattering is "
             "left to the shader in its place."
@@ -126,7 +136,7 @@ def _remarks(
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")
-    if tan.profile_width is None:
+    if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks
 

@@ -1,42 +1,31 @@
-"""A tan by day and by share of the dose, as arrays that a shader samples."""
+"""A tan as arrays that a shader samples: where the skin stands, and what it looks like there."""
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from hylios.errors import InputError
-from hylios.history import history_of_shares
 from hylios.sun.doses import Doses
-from hylios.table import SkinTable, melanin_dynamics
+from hylios.table import MinimalDoses, SkinTable, melanin_dynamics
 
 from . import catalogue, doses
+from .history import History, history
+from .look import Look, look
 from .settings import TanSettings, check_days
 
-HOURS_PER_ROW = 6.0
-ROWS_LIMIT = 1024
 
-COLOUR, WIDTH = "subsurface_colour", "profile_width"
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Tan:
-    """Appearance of skin over time and over the share of the dose that reached it.
+    """History and look of an object's skin.
 
     Attributes
     ----------
-    colour : (rows, columns, 3) float32 array
-        Linear Rec.709 albedo of the light that has been inside the skin.
-    profile_width : (rows, columns, 3) float32 array or None
-        Width d in mm of Burley's diffusion profile in red, green and blue, if the table has it.
-    first_day, last_day : float
-        Times of the first and last row; the rows between are evenly spaced. Columns are evenly
-        spaced over shares from 0 to 1.
+    history : History
+        Over time and over the share of the dose; knows no optics.
+    look : Look
+        Over the states of the skin; knows no time.
     """
 
-    colour: np.ndarray
-    profile_width: np.ndarray | None
-    first_day: float
-    last_day: float
+    history: History
+    look: Look
 
 
 def tan_of(settings: TanSettings) -> Tan:
@@ -68,7 +57,7 @@ def tan(
     first_day: float,
     last_day: float,
 ) -> Tan:
-    """Simulate a skin's doses from day 0 and look its appearance up.
+    """Simulate a skin's doses from day 0, and flatten its table along the states of its kinetics.
 
     Parameters
     ----------
@@ -86,35 +75,19 @@ def tan(
         If a day is out of range, or if the table does not say how its skin makes melanin, has no
         colour for a shader, or was built for a schedule that leads elsewhere.
     """
-    _check_planes(table)
     check_days(first_day, last_day)
-    rows = min(ROWS_LIMIT, int(np.ceil(24.0 * (last_day - first_day) / HOURS_PER_ROW)) + 1)
-    states = history_of_shares(
-        received.exposures(),
+    skin = look(table, MinimalDoses(mmd=mmd, med=med))
+    over_time, states = history(
+        received,
         melanin_dynamics(table.provenance),
-        hours=24.0 * np.linspace(first_day, last_day, rows),
         mmd=mmd,
         med=med,
-    ).image
+        first_day=first_day,
+        last_day=last_day,
+    )
     if not table.holds(states).all():
         raise InputError(
             "the table was built for another schedule of sun and lacks tans of this one; build it "
             "with this schedule (Export Schedule) or with none."
         )
-    planes = [name for name in (COLOUR, WIDTH) if name in table.planes]
-    appearance = table.lookup(states, planes)
-    width = appearance.get(WIDTH)
-    return Tan(
-        colour=appearance[COLOUR].astype(np.float32),
-        profile_width=None if width is None else width.astype(np.float32),
-        first_day=first_day,
-        last_day=last_day,
-    )
-
-
-def _check_planes(table: SkinTable) -> None:
-    if COLOUR not in table.planes:
-        raise InputError(
-            f"the table has no plane {COLOUR}, which the skin's material needs; it has "
-            f"{', '.join(table.planes)}."
-        )
+    return Tan(over_time, skin)

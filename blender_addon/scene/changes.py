@@ -60,6 +60,8 @@ class Changes:
     def set(self, owner: Any, name: str, value: Any) -> None:
         """Set an attribute."""
         former = getattr(owner, name)
+        if isinstance(former, bpy.types.bpy_prop_array):
+            former = tuple(former)  # it would follow the change
         self.on_failure(setattr, owner, name, former)
         setattr(owner, name, value)
 
@@ -80,6 +82,11 @@ class Changes:
         """Restore the links of a node tree, whatever is linked from now on."""
         self.on_failure(_restore_links, tree, _ends(tree))
 
+    def may_change_sockets(self, group: Any) -> None:
+        """Restore the inputs and outputs of a node group, whatever is renamed or added."""
+        former = {item.as_pointer(): item.name for item in group.interface.items_tree}
+        self.on_failure(_restore_sockets, group.interface, former)
+
 
 def _made() -> list[Any]:
     return [block for name in MADE for block in getattr(bpy.data, name)]
@@ -89,6 +96,14 @@ def _remove_others(collection: Any, present: set[int]) -> None:
     for member in list(collection):
         if member.as_pointer() not in present:
             collection.remove(member)
+
+
+def _restore_sockets(interface: Any, former: dict[int, str]) -> None:
+    for item in list(interface.items_tree):
+        if item.as_pointer() in former:
+            item.name = former[item.as_pointer()]
+        else:
+            interface.remove(item)
 
 
 def _ends(tree: Any) -> list[tuple[Any, Any]]:

@@ -12,22 +12,18 @@ import bpy
 
 from .changes import Changes
 from .images import MARK, stem
-from .nodes import (
-    DAY_PROPERTY,
-    IMAGE_KEYS,
-    LAYOUT,
-    LAYOUT_KEY,
-    PROFILE_KEY,
-    ROLE_KEY,
-    ROLES,
-    complete,
-    find_input,
-    of_role,
-)
+from .nodes import complete, find_input, of_role
+from .plan import DAY_PROPERTY, LAYOUT_KEY, PROFILE_KEY, ROLE_KEY, ROLES
 
 NEEDED = ("day", "row", "column", "place", "colour")
 IMAGE_NAMES = {"colour": "Skin Tan Colour ", "width": "Skin Tan Width "}
 """How the names of its images begin."""
+
+IMAGE_KEYS = {"colour": "skin_tan_colour", "width": "skin_tan_width"}
+"""Where a group says that they are its own."""
+
+LAYOUT = 1
+"""The plan of groups with roles that came next."""
 
 
 def is_tan_group(tree: bpy.types.NodeTree) -> bool:
@@ -38,10 +34,12 @@ def is_tan_group(tree: bpy.types.NodeTree) -> bool:
 
 
 def take_over(group: Any, changes: Changes) -> None:
-    """Bring a group of an earlier version up to the plan of today.
+    """Give a group of the first version roles, and have one say which images are its own.
 
     What an artist linked stays linked, and what he removed stays away.
     """
+    if group.get(LAYOUT_KEY, LAYOUT) != LAYOUT:
+        return
     if LAYOUT_KEY not in group:
         _give_roles(group, changes)
     for role, key in IMAGE_KEYS.items():
@@ -94,7 +92,7 @@ def _recognised(group: Any) -> dict[str, list[Any]]:
     nodes_by_role: dict[str, list[Any]] = {}
 
     def look_for(role: str, is_linked_so: Callable[[Any], bool]) -> None:
-        labelled = _labelled(group, ROLES[role].kind, ROLES[role].label)
+        labelled = _labelled(group, _kind(role), ROLES[role].label)
         nodes = labelled or [node for node in _of_kind(group, role) if is_linked_so(node)]
         if nodes:
             nodes_by_role[role] = nodes
@@ -118,8 +116,12 @@ def _recognised(group: Any) -> dict[str, list[Any]]:
     return nodes_by_role
 
 
+def _kind(role: str) -> str:
+    return "ShaderNodeMapRange" if role in ("row", "column") else ROLES[role].kind
+
+
 def _of_kind(group: Any, role: str) -> list[Any]:
-    return [node for node in group.nodes if node.bl_idname == ROLES[role].kind]
+    return [node for node in group.nodes if node.bl_idname == _kind(role)]
 
 
 def _labelled(group: Any, kind: str, label: str) -> list[Any]:

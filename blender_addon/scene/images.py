@@ -1,5 +1,6 @@
 """Float images that carry a table of numbers inside the .blend."""
 
+import hashlib
 import re
 from collections.abc import Collection, Mapping
 from functools import partial
@@ -27,6 +28,10 @@ COLOUR_SPACES = (
 DATA_SPACES = ("Non-Color", "Raw", "Utility - Raw", "raw", "data")
 MARK = "skin_tan"
 """Custom property of an image that this add-on made: the name that it gave it."""
+
+
+CONTENT, PACKED = "skin_tan_content", "skin_tan_packed"
+"""Custom properties of an image that objects share: digests of its numbers and of its file."""
 
 
 def stem(name: str) -> str:
@@ -57,10 +62,43 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     cast(Any, image.pixels).foreach_set(pixels.ravel())
     image.update()
     image.pack()
+    if not is_colour:
+        # EEVEE would keep 11 bits, too few for a place between two texels.
+        cast(Any, image).use_half_precision = False
     # Blender takes pixels that are set for numbers of its working space; those that it reads from
     # the packed file it converts.
     image.buffers_free()
     return image
+
+
+def shared_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:
+    """The image of these values (rows, columns, 3) that is in the file, or else a new one.
+
+    It is known by its numbers, not by its name, as long as nobody has renamed or changed it.
+    Parameters and errors as in `packed_image`.
+    """
+    numbers = np.ascontiguousarray(values, dtype="<f4")
+    digest = hashlib.sha256(f"{is_colour} {numbers.shape} ".encode() + numbers.tobytes())
+    content = digest.hexdigest()
+    for image in bpy.data.images:
+        if image.get(CONTENT) == content and image.library is None and _is_unchanged(image):
+            return image
+    image = packed_image(name, values, is_colour=is_colour)
+    image[CONTENT], image[PACKED] = content, _packed_digest(image)
+    return image
+
+
+def _is_unchanged(image: bpy.types.Image) -> bool:
+    return (
+        not image.is_dirty
+        and image.packed_file is not None
+        and _has_its_name(image)
+        and image.get(PACKED) == _packed_digest(image)
+    )
+
+
+def _packed_digest(image: Any) -> str:
+    return hashlib.sha256(image.packed_file.data).hexdigest()
 
 
 def set_colour_space(image: bpy.types.Image, *, is_colour: bool) -> None:
@@ -89,7 +127,7 @@ def replace(
     obj: bpy.types.Object,
     changes: Changes,
 ) -> list[bpy.types.Image]:
-    """Remove an object's former images that none else shows; the new ones get their names.
+    """Remove an object's former images that none else shows; new ones of its own get their names.
 
     Parameters
     ----------
@@ -111,7 +149,15 @@ def replace(
             # An artist's image must not be lost on saving for want of a user.
             changes.set(image, "use_fake_user", True)
             kept.append(image)
-        elif not users.others(image, obj):
+        elif users.others(image, obj):
+            continue
+        elif CONTENT in new and CONTENT not in image:
+            # Of an earlier plan: the new one shows the same over other coordinates.
+            changes.at_the_end(partial(_remove_unused, image))
+        elif CONTENT in new:
+            changes.at_the_end(partial(image.user_remap, new))
+            changes.at_the_end(partial(bpy.data.images.remove, image))
+        else:
             name = image.name
             # Nodes of the artist's own show the new image too.
             changes.at_the_end(partial(image.user_remap, new))
@@ -119,6 +165,11 @@ def replace(
             changes.at_the_end(partial(setattr, new, "name", name))
             changes.at_the_end(partial(new.__setitem__, MARK, name))
     return kept
+
+
+def _remove_unused(image: bpy.types.Image) -> None:
+    if image.users == 0:
+        bpy.data.images.remove(image)
 
 
 def _has_its_name(image: bpy.types.Image) -> bool:

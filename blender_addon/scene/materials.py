@@ -36,6 +36,12 @@ class Skin:
     _chain: list[Any] = field(default_factory=list)
     _copies: dict[Any, Any] = field(default_factory=dict)
 
+    def trees(self) -> list[Any]:
+        """Node trees of the object alone that may hold the group."""
+        blocks = [*(self._copies.get(block, block) for block in self._chain), self.material]
+        trees = dict.fromkeys(map(_tree, blocks))
+        return [tree for tree in trees if tree not in (None, self.group)]
+
     def attach(self, obj: bpy.types.Object, changes: Changes) -> str:
         """Have the object show the group, and return a sentence on it."""
         for block in self._chain:

@@ -1,4 +1,4 @@
-"""The node group of a tan: it samples two images by day and share of the dose.
+"""The node group of a tan: made by the plan, and told what to show.
 
 A node that this add-on makes has a role, which says what it is for, in a custom property. Apply
 writes the few values that it owns into nodes with a role. It leaves all other nodes, links and
@@ -6,103 +6,107 @@ values alone.
 """
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 
 from hylios.errors import InputError
 
 from .changes import Changes
+from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES
 
-DAY_PROPERTY = "tan_day"
 # Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
 RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
 
-LAYOUT_KEY, LAYOUT = "skin_tan_layout", 1
-"""Custom property of a group that says that this add-on made it, and by which plan."""
+INPUTS = {
+    "Roughness": (0.45, 1.0, "Of the surface; the default is that of the skin's table"),
+    "Specular": (0.5, 1.0, "Strength of the gloss; .5 is that of skin"),
+    "Melanin": (1.0, 100.0, "Melanin over that of the tan: 1 leaves it, 0 is skin without any"),
+    "Blood": (1.0, 100.0, "Blood over that of the skin: 1 leaves it, 2 is a flush"),
+}
+"""Inputs of the group: default, largest value and what they are."""
 
-PROFILE_KEY = "skin_tan_profile"
-"""Custom property of a group: whether its table has a profile, so that light scatters below."""
+OUTPUTS = {
+    "Surface": ("NodeSocketShader", "The skin"),
+    "Colour": ("NodeSocketColor", "Albedo of the light that has been inside the skin"),
+    "Far Width": ("NodeSocketVector", "Width in mm of Burley's profile of the far light"),
+    "Ratio": ("NodeSocketColor", "Colour over that of the untanned skin"),
+    "Near Share": ("NodeSocketVector", "Share of the light that leaves where it entered"),
+    "Share": ("NodeSocketFloat", "Share of the sun that arrives here"),
+}
+"""Outputs of the group: type and what they are."""
 
-ROLE_KEY = "skin_tan_role"
-
-IMAGE_KEYS = {"colour": "skin_tan_colour", "width": "skin_tan_width"}
+IMAGE_KEYS = {
+    "states": "skin_tan_states",
+    "columns": "skin_tan_places",
+    **{role: f"skin_tan_{role}" for role in LOOK},
+}
 """Custom properties of a group: the images that were made for it, whatever its nodes show."""
 
 
 @dataclass(frozen=True)
-class Role:
-    """A kind of node in the group; the label tells it in files without roles."""
-
-    kind: str
-    label: str
-    location: tuple[int, int]
-
-
-ROLES = {
-    "mask": Role("ShaderNodeAttribute", "Share", (-1200, 250)),
-    "share": Role("ShaderNodeMath", "Share or all", (-1000, 250)),
-    "day": Role("ShaderNodeAttribute", "Day", (-1000, 0)),
-    "column": Role("ShaderNodeMapRange", "Share to column", (-800, 250)),
-    "row": Role("ShaderNodeMapRange", "Day to row", (-800, 0)),
-    "place": Role("ShaderNodeCombineXYZ", "Place in table", (-600, 150)),
-    "colour": Role("ShaderNodeTexImage", "Colour", (-400, 250)),
-    "width": Role("ShaderNodeTexImage", "Profile width (mm)", (-400, -50)),
-    "radius": Role("ShaderNodeValue", "Width to radius", (-350, -350)),
-    "input": Role("NodeGroupInput", "", (-400, 450)),
-    "skin": Role("ShaderNodeBsdfPrincipled", "Skin", (-50, 300)),
-    "output": Role("NodeGroupOutput", "", (300, 300)),
-}
-LINKS = (
-    ("mask", "Fac", "share", 0),
-    ("share", "Value", "column", "Value"),
-    ("day", "Fac", "row", "Value"),
-    ("column", "Result", "place", "X"),
-    ("row", "Result", "place", "Y"),
-    ("place", "Vector", "colour", "Vector"),
-    ("place", "Vector", "width", "Vector"),
-    ("colour", "Color", "skin", "Base Color"),
-    ("width", "Color", "skin", "Subsurface Radius"),
-    ("radius", "Value", "skin", "Subsurface Scale"),
-    ("input", "Roughness", "skin", "Roughness"),
-    ("input", "Specular", "skin", "Specular IOR Level"),
-    ("skin", "BSDF", "output", "Surface"),
-    ("colour", "Color", "output", "Colour"),
-    ("width", "Color", "output", "Profile Width"),
-)
-
-
-@dataclass(frozen=True)
 class Sampled:
-    """The two images of a tan, and what their axes mean.
+    """The images of a tan, and what their axes mean.
 
     Attributes
     ----------
-    colour, width : Image
-        Of colour, and of profile width in mm.
+    states : Image
+        Coordinates of the skin's states over days and shares.
+    places : Image
+        Where shares and days lie in it.
+    look : mapping
+        Images by the roles of `LOOK`.
+    melanin, blood, thickness : pairs of float
+        What the ends of the look's images stand for: square root of melanin, logarithms of blood
+        and of thickness.
+    level : float
+        Base colour of a shader over the colour, seen at 8 degrees.
+    near_weight : float
+        Of the shader that shows near light.
+    roughness : float
+        Of the skin.
     has_profile : bool
-        Whether light scatters below the surface; without, `width` is one black pixel.
+        Whether light scatters below the surface.
     first_day, last_day : float
-        Of the first and the last row.
     mask_attribute : str
         With the share of the dose at each point; without one every place gets all of it.
     scene_unit : float
         Length of a scene unit in metres.
     """
 
-    colour: bpy.types.Image
-    width: bpy.types.Image
+    states: bpy.types.Image
+    places: bpy.types.Image
+    look: Mapping[str, bpy.types.Image]
+    melanin: tuple[float, float]
+    blood: tuple[float, float]
+    thickness: tuple[float, float]
+    level: float
+    near_weight: float
+    roughness: float
     has_profile: bool
     first_day: float
     last_day: float
     mask_attribute: str
     scene_unit: float
 
+    @property
+    def images(self) -> dict[str, bpy.types.Image]:
+        """Images by the roles that show them."""
+        return {
+            "states": self.states,
+            "columns": self.places,
+            "rows": self.places,
+            **self.look,
+            "thick_colour": self.look["colour"],
+            "untanned": self.look["colour"],
+        }
+
 
 def require_readable(group: bpy.types.NodeTree) -> None:
     """Raise InputError where a newer version of the add-on made a group."""
-    if group.get(LAYOUT_KEY, LAYOUT) != LAYOUT:
+    if int(group.get(LAYOUT_KEY, LAYOUT)) > LAYOUT:
         raise InputError(
             f"A newer version of this add-on made the node group {group.name!r}; install that one."
         )
@@ -111,7 +115,7 @@ def require_readable(group: bpy.types.NodeTree) -> None:
 def new_group(name: str) -> bpy.types.NodeTree:
     """A new node group, for `update` to fill with numbers."""
     group = bpy.data.node_groups.new(name, "ShaderNodeTree")
-    _add_sockets(group)
+    add_sockets(group)
     complete(group, ROLES)
     group[LAYOUT_KEY] = LAYOUT
     return group
@@ -124,13 +128,22 @@ def update(
 
     What an artist changed in it otherwise stays: nodes, links, values.
     """
-    replaced = {
-        node.image: image
-        for role, image in (("colour", sampled.colour), ("width", sampled.width))
-        for node in of_role(group, role)
-        if node.image is not None
-    }
-    _set_numbers(group, sampled, changes)
+    replaced = {}
+    for role, image in sampled.images.items():
+        for node in of_role(group, role):
+            if node.image not in (None, image):
+                replaced[node.image] = image
+            changes.set(node, "image", image)
+        if role in IMAGE_KEYS:
+            changes.set_key(group, IMAGE_KEYS[role], image)
+    for role, values in _values(sampled).items():
+        for node in of_role(group, role):
+            is_math = node.bl_idname == "ShaderNodeMath" and "From Min" in values
+            for socket, value in (_straight(values) if is_math else values).items():
+                end = node.outputs[0] if socket == OUT else find_input(node, socket)
+                changes.set(end, "default_value", value)
+    for node in of_role(group, "mask"):
+        changes.set(node, "attribute_name", sampled.mask_attribute)
     _set_profile(group, sampled, changes)
     return replaced
 
@@ -142,8 +155,11 @@ def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
 
 def missing_roles(group: bpy.types.NodeTree) -> list[str]:
     """Labels of nodes without which a group cannot show the tan, and which it lacks."""
-    needed = ("day", "row", "column", "place", "colour", "share")
-    return [ROLES[role].label for role in needed if not list(of_role(group, role))]
+    needed = (
+        "day row rows row_place share column columns column_place place states state "
+        "melanin root look_column look_place colour mixed_colour"
+    )
+    return [ROLES[role].label for role in needed.split() if not list(of_role(group, role))]
 
 
 def has_own_shader(group: bpy.types.NodeTree) -> bool:
@@ -156,87 +172,137 @@ def of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
     return (node for node in group.nodes if node.get(ROLE_KEY) == role)
 
 
-def _add_sockets(group) -> None:
+def set_roughness(trees: Collection[Any], group: Any, roughness: float, changes: Changes) -> None:
+    """Give the skin's roughness to a group's input, and to its nodes in trees.
+
+    A node that an artist has set to another value than the former default, or linked, keeps it.
+    """
+    for item in group.interface.items_tree:
+        if item.name == "Roughness" and getattr(item, "in_out", "") == "INPUT":
+            former = item.default_value
+            for tree in trees:
+                for node in tree.nodes:
+                    end = node.inputs.get("Roughness")
+                    if getattr(node, "node_tree", None) == group and end.default_value == former:
+                        changes.set(end, "default_value", roughness)
+            changes.set(item, "default_value", roughness)
+
+
+def add_sockets(group: Any) -> list[str]:
+    """Give a group those inputs and outputs that it lacks; the names of new inputs."""
     interface = group.interface
-    for label, default in (("Roughness", 0.45), ("Specular", 0.5)):
-        socket = interface.new_socket(label, in_out="INPUT", socket_type="NodeSocketFloat")
+    present = {(item.in_out, item.name) for item in interface.items_tree if hasattr(item, "in_out")}
+    added = [name for name in INPUTS if ("INPUT", name) not in present]
+    for name in added:
+        default, most, says = INPUTS[name]
+        socket = interface.new_socket(
+            name, description=says, in_out="INPUT", socket_type="NodeSocketFloat"
+        )
         socket.subtype = "FACTOR"
-        socket.min_value, socket.max_value = 0.0, 1.0
+        socket.min_value, socket.max_value = 0.0, most
         socket.default_value = default
-    interface.new_socket("Surface", in_out="OUTPUT", socket_type="NodeSocketShader")
-    interface.new_socket("Colour", in_out="OUTPUT", socket_type="NodeSocketColor")
-    interface.new_socket("Profile Width", in_out="OUTPUT", socket_type="NodeSocketVector")
+    for name, (kind, says) in OUTPUTS.items():
+        if ("OUTPUT", name) not in present:
+            interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
+    return added
 
 
-def complete(group, made: Collection[str]) -> None:
+def complete(group: Any, made: Collection[str]) -> None:
     """Make the nodes of some roles and their links, other than into what is linked already."""
-    present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
     for role in made:
-        present[role] = _new_node(group, role)
+        new_node(group, role)
+    link(group, made)
+
+
+def link(group: Any, made: Collection[str]) -> None:
+    """Link nodes of some roles as the plan has it, other than into what is linked already."""
+    present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
     for source, output, target, socket in LINKS:
         if {source, target} & set(made) and {source, target} <= set(present):
-            start = present[source].outputs.get(output)
+            start = find_output(present[source], output)
             end = find_input(present[target], socket)
             if start is not None and end is not None and not end.is_linked:
                 group.links.new(start, end)
 
 
-def _new_node(group, role: str):
+def new_node(group: Any, role: str) -> Any:
+    """A new node of a role, not linked yet."""
     plan = ROLES[role]
     node = group.nodes.new(plan.kind)
     node.label, node.location, node[ROLE_KEY] = plan.label, plan.location, role
-    if role in ("column", "row"):
-        node.clamp = True
-    elif role in ("colour", "width"):
-        node.interpolation, node.extension = "Linear", "EXTEND"
-    elif role == "share":
-        node.operation = "MAXIMUM"
-    elif role == "day":
-        node.attribute_type, node.attribute_name = "OBJECT", DAY_PROPERTY
-    elif role == "mask":
-        node.attribute_type = "GEOMETRY"
-    elif role == "skin":
-        node.subsurface_method = "BURLEY"
-        find_input(node, "Subsurface Weight").default_value = 0.0
-        find_input(node, "IOR").default_value = 1.4
+    for name, value in plan.values.items():
+        setattr(node, name, value)
+    for socket, value in plan.inputs.items():
+        find_input(node, socket).default_value = value
     return node
 
 
-def find_input(node, socket: str | int):
+def find_input(node: Any, socket: str | int) -> Any:
     """An input by number, identifier or name: a Principled BSDF hides the names of some sockets."""
+    return _find(node.inputs, socket)
+
+
+def find_output(node: Any, socket: str | int) -> Any:
+    """An output by number, identifier or name."""
+    return _find(node.outputs, socket)
+
+
+def _find(sockets: Any, socket: str | int) -> Any:
     if isinstance(socket, int):
-        return node.inputs[socket]
-    by_identifier = {item.identifier: item for item in node.inputs}
-    return by_identifier.get(socket) or node.inputs.get(socket)
+        return sockets[socket]
+    by_identifier = {item.identifier: item for item in sockets}
+    return by_identifier.get(socket) or sockets.get(socket)
 
 
-def _set_numbers(group, sampled: Sampled, changes: Changes) -> None:
-    for node in of_role(group, "mask"):
-        changes.set(node, "attribute_name", sampled.mask_attribute)
-    for node in of_role(group, "share"):
-        changes.set(node.inputs[1], "default_value", 0.0 if sampled.mask_attribute else 1.0)
-    columns, rows = sampled.colour.size
-    for node in of_role(group, "column"):
-        _map_to_texels(node, (0.0, 1.0), columns, changes)
-    for node in of_role(group, "row"):
-        _map_to_texels(node, (sampled.first_day, sampled.last_day), rows, changes)
-    for role, image in (("colour", sampled.colour), ("width", sampled.width)):
-        for node in of_role(group, role):
-            changes.set(node, "image", image)
-        changes.set_key(group, IMAGE_KEYS[role], image)
-    for node in of_role(group, "radius"):
-        radius = RADIUS_PER_MILLIMETRE / sampled.scene_unit
-        changes.set(node.outputs[0], "default_value", radius)
+OUT = "output"
+"""Stands for a node's first output, whose value is the node's."""
 
 
-def _map_to_texels(node, ends: tuple[float, float], texels: int, changes: Changes) -> None:
-    """Map the ends to the centres of the first and the last texel."""
-    numbers = (*ends, 0.5 / texels, 1.0 - 0.5 / texels)
-    for name, number in zip(("From Min", "From Max", "To Min", "To Max"), numbers, strict=True):
-        changes.set(node.inputs[name], "default_value", number)
+def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
+    """The values that Apply owns, by roles and inputs."""
+    columns, rows = sampled.look["colour"].size
+    steps = sampled.places.size[0]
+    half = 0.5 / rows
+    melanin = _between(sampled.melanin, 0.5 / columns, 1.0 - 0.5 / columns)
+    blood = _between(sampled.blood, half, 0.5 - half)
+    if sampled.blood[0] == sampled.blood[1]:
+        blood = _between((0.0, 1.0), half, half)
+    low, high = (max(weight, 1e-6) for weight in (sampled.near_weight, 1.0 - sampled.near_weight))
+    days = (sampled.first_day, sampled.last_day)
+    return {
+        "share": {1: 0.0 if sampled.mask_attribute else 1.0},
+        "column": _between((0.0, 1.0), 0.5 / steps, 1.0 - 0.5 / steps),
+        "row": _between(days, 0.5 / steps, 1.0 - 0.5 / steps),
+        "look_column": melanin,
+        "look_row": blood,
+        "thickness": _between(sampled.thickness, 0.0, 1.0),
+        "untanned_place": {"X": _mapped(melanin, 1.0), "Y": _mapped(blood, 0.0)},
+        "gain": {2: (sampled.level,) * 3},
+        "near_scaled": {"Scale": 1.0 / low if sampled.near_weight > 0.0 else 0.0},
+        "far_scaled": {"Scale": 1.0 / high},
+        "lobes": {0: 1.0 - sampled.near_weight},
+        "radius": {OUT: RADIUS_PER_MILLIMETRE / sampled.scene_unit},
+    }
 
 
-def _set_profile(group, sampled: Sampled, changes: Changes) -> None:
+def _between(ends: tuple[float, float], low: float, high: float) -> dict[str | int, float]:
+    """Values of a node that maps the ends to two places."""
+    return {"From Min": ends[0], "From Max": ends[1], "To Min": low, "To Max": high}
+
+
+def _straight(ends: Mapping[str | int, float]) -> dict[str | int, float]:
+    """The same for a node that multiplies and adds; beyond their ends images hold their edge."""
+    slope = (ends["To Max"] - ends["To Min"]) / (ends["From Max"] - ends["From Min"])
+    return {1: slope, 2: ends["To Min"] - slope * ends["From Min"]}
+
+
+def _mapped(ends: Mapping[str | int, float], value: float) -> float:
+    """What a node with these values maps a value to."""
+    part = (value - ends["From Min"]) / (ends["From Max"] - ends["From Min"])
+    return ends["To Min"] + min(max(part, 0.0), 1.0) * (ends["To Max"] - ends["To Min"])
+
+
+def _set_profile(group: Any, sampled: Sampled, changes: Changes) -> None:
     """Turn subsurface on or off, but only where the table brings a change: it may be edited."""
     if bool(group.get(PROFILE_KEY)) != sampled.has_profile:
         for node in of_role(group, "skin"):

@@ -8,7 +8,7 @@ from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from hylios.errors import InputError
 
 from .changes import Changes
-from .nodes import DAY_PROPERTY
+from .plan import DAY_PROPERTY
 
 DATA_PATH = f'["{DAY_PROPERTY}"]'
 COORDINATES = ("co", "handle_left", "handle_right")

@@ -77,7 +77,8 @@ class Spread:
             np.interp(v, self.thicknesses, self.least),
             np.interp(v, self.thicknesses, self.most),
         )
-        return powers(*np.broadcast_arrays(u, v), DEGREE) @ self.coefficients
+        u, v = np.broadcast_arrays(u, v)
+        return powers(u, v, DEGREE) @ self.coefficients
 
     def states(
         self, melanin: ArrayLike, thickness: ArrayLike, blood: ArrayLike = 0.0

@@ -1,7 +1,7 @@
 """Every test here starts from an empty scene with the add-on registered."""
 
 import pytest
-from synthetic import smooth_table
+from synthetic import former_table, smooth_table
 
 import blender_addon
 from lut_builder.exr_writer import write_table
@@ -26,4 +26,12 @@ def table():
 def table_path(tmp_path_factory, table):
     path = tmp_path_factory.mktemp("tables") / "S3.exr"
     write_table(path, table)
+    return path
+
+
+@pytest.fixture(scope="session")
+def former_path(tmp_path_factory):
+    """A table of format 3."""
+    path = tmp_path_factory.mktemp("tables") / "former.exr"
+    write_table(path, former_table())
     return path

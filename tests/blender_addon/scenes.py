@@ -6,6 +6,9 @@ import bpy
 import numpy as np
 import OpenImageIO
 
+OWN_IMAGES, LOOK_IMAGES = 2, 5
+"""Images that Apply makes for an object, and for a skin with all planes."""
+
 
 def apply(obj=None) -> set:
     """Press the button, for an object if one is given."""

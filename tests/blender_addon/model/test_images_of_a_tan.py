@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sampled import colours
 from synthetic import smooth_table
 
 from blender_addon.model import catalogue, doses, schedule
@@ -25,7 +26,7 @@ def with_header(table, **changes):
 
 
 def darkest(table) -> float:
-    return float(tan(table, of_sed(0, 30.0), **SPAN).colour.min())
+    return float(colours(tan(table, of_sed(0, 30.0), **SPAN)).min())
 
 
 def test_the_dynamics_in_the_header_count(table):

@@ -5,6 +5,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from sampled import colours
 from scenes import of_role, tan_object
 
 from blender_addon.model.tan import tan
@@ -40,9 +41,9 @@ def part():
 
 def test_a_table_for_a_schedule_is_good_for_it(part):
     whole = build(SKIN, QUICK)
-    of_part, of_whole = (tan(table, of_sed(0, SUN), **SPAN) for table in (part, whole))
-    assert np.ptp(of_whole.colour[..., 0]) > 0.05
-    assert of_part.colour == pytest.approx(of_whole.colour, abs=0.003)
+    of_part, of_whole = (colours(tan(table, of_sed(0, SUN), **SPAN)) for table in (part, whole))
+    assert np.ptp(of_whole[..., 0]) > 0.05
+    assert of_part == pytest.approx(of_whole, abs=0.003)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +57,7 @@ def test_a_table_for_a_schedule_is_refused_for_another(part, dose, last_day):
 
 @pytest.mark.parametrize("dose", [0.0, 0.5 * SUN, SUN])
 def test_a_table_for_a_schedule_holds_for_less_of_it(part, dose):
-    assert tan(part, of_sed(0, dose), **{**SPAN, "last_day": 7.3}).colour.min() > 0.0
+    assert tan(part, of_sed(0, dose), **{**SPAN, "last_day": 7.3}).look.colour.min() > 0.0
 
 
 def test_a_table_without_colour_is_refused(table):
@@ -68,7 +69,7 @@ def test_a_table_without_profile_gives_a_material_without_subsurface(table, tmp_
     """And Apply with another table brings subsurface back, and the other way round."""
     whole, flat = tmp_path / "whole.exr", tmp_path / "flat.exr"
     write_table(whole, table)
-    write_table(flat, without(table, "profile_width"))
+    write_table(flat, without(table, "near_share", "far_width"))
     obj = tan_object(flat)
     for path, weight in ((flat, 0.0), (whole, 1.0), (flat, 0.0)):
         obj.skin_tan.table_path = str(path)

@@ -161,7 +161,18 @@ def of_first_version(table_path):
     return twin
 
 
-@pytest.mark.parametrize("scene", [new, again, shared, without_slots, of_first_version])
+def of_layout_1(table_path):
+    """With a material and a group that an artist changed."""
+    bpy.ops.wm.open_mainfile(filepath=str(FILE.with_name("layout_1.blend")))
+    body = bpy.data.objects["Body"]
+    body.skin_tan.exposures[0].dose = 5.0
+    return body
+
+
+SCENES = [new, again, shared, without_slots, of_first_version, of_layout_1]
+
+
+@pytest.mark.parametrize("scene", SCENES)
 def test_an_exception_anywhere(table_path, monkeypatch, scene):
     obj = scene(table_path)
     tan = module.tan_of(obj.skin_tan.values())
@@ -177,7 +188,7 @@ def test_an_exception_anywhere(table_path, monkeypatch, scene):
     assert look(obj) != seen
 
 
-STEP = 17
+STEP = 131
 """Every so many lines; with 1 the tests take minutes."""
 
 

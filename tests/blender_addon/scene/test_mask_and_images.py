@@ -31,5 +31,14 @@ def test_images_are_those_of_the_model(body, table_path):
     from blender_addon.model.tan import tan_of
 
     expected = tan_of(body.skin_tan.values())
-    assert np.array_equal(pixels(of_role(body, "colour").image)[..., :3], expected.colour)
-    assert np.array_equal(pixels(of_role(body, "width").image)[..., :3], expected.profile_width)
+    history, look = expected.history, expected.look
+    for role, values in (
+        ("states", history.coordinates),
+        ("columns", history.places),
+        ("rows", history.places),
+        ("colour", look.colour),
+        ("thick_colour", look.colour),
+        ("bend", look.bend),
+        ("width", look.far),
+    ):
+        assert np.array_equal(pixels(of_role(body, role).image)[..., :3], values)

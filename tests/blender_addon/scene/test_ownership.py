@@ -1,11 +1,19 @@
 """Apply changes the object that it is told to, whatever is shared and however things are called."""
 
 import bpy
-import numpy as np
 import pytest
-from scenes import apply, look, modifier_input, of_role, pixels, set_modifier_input, tan_object
+from scenes import (
+    LOOK_IMAGES,
+    OWN_IMAGES,
+    apply,
+    look,
+    modifier_input,
+    of_role,
+    set_modifier_input,
+    tan_object,
+)
 
-from blender_addon.scene import images, materials, nodes, timeline
+from blender_addon.scene import images, materials, plan, timeline
 
 LONG = ("x" * 62, "x" * 254, "ж" * 40, "肌" * 30, "😀" * 20)
 
@@ -38,7 +46,8 @@ def test_names_that_meet_when_they_are_cut(table_path, prefix):
     assert look(first) == before != look(second)
     apply(first)
     assert look(first) == before
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 2 and len(bpy.data.images) == 4
+    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 2
+    assert len(bpy.data.images) == 2 * OWN_IMAGES + LOOK_IMAGES
 
 
 def test_a_name_given_on(body, table_path):
@@ -58,7 +67,8 @@ def test_what_is_renamed_is_found_again(body, collection):
     body.skin_tan.exposures[0].dose = 8.0
     apply(body)
     assert {block.name for block in getattr(bpy.data, collection)} == names
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 1 and len(bpy.data.images) == 2
+    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 1
+    assert len(bpy.data.images) == OWN_IMAGES + LOOK_IMAGES
 
 
 def test_what_bears_the_names_is_not_the_add_on_s(table_path):
@@ -69,14 +79,14 @@ def test_what_bears_the_names_is_not_the_add_on_s(table_path):
         for kind in ("GeometryNodeTree", "ShaderNodeTree")
     ]
     groups[1].nodes.new("ShaderNodeRGB")
-    picture = bpy.data.images.new("Skin Tan Colour Body", 4, 4)
+    picture = bpy.data.images.new("Skin Tan States Body", 4, 4)
     bpy.data.actions.new("BodyAction")
     for _ in range(2):
         assert apply(obj) == {"FINISHED"}
     assert obj.material_slots[0].material not in (None, material)
     assert [node.bl_idname for node in groups[1].nodes] == ["ShaderNodeRGB"]
     assert not groups[0].nodes and tuple(picture.size) == (4, 4)
-    assert picture.name == "Skin Tan Colour Body"
+    assert picture.name == "Skin Tan States Body"
 
 
 def linked_duplicate(obj):
@@ -107,7 +117,7 @@ def test_a_copy_and_its_original_tan_on_their_own(body, duplicate, which):
     assert group_node(changed).inputs["Roughness"].default_value == pytest.approx(0.3)
     # From now on each has its own: nothing is copied any more.
     counts = len(bpy.data.materials), len(bpy.data.images), len(bpy.data.actions)
-    assert counts == (2, 4, 2)
+    assert counts == (2, 2 * OWN_IMAGES + LOOK_IMAGES, 2)
     apply(kept)
     apply(changed)
     assert (len(bpy.data.materials), len(bpy.data.images), len(bpy.data.actions)) == counts
@@ -142,7 +152,7 @@ def test_a_world_that_shows_the_group_stays_as_it_was(body):
         world.use_nodes = True
     node = world.node_tree.nodes.new("ShaderNodeGroup")
     group = node.node_tree = body.skin_tan.group
-    former = of_role(body, "colour").image
+    former = of_role(body, "states").image
     apply(body)
     assert node.node_tree == group != body.skin_tan.group
     assert former in {inner.image for inner in group.nodes if hasattr(inner, "image")}
@@ -207,13 +217,13 @@ def test_the_artist_s_group_around_the_tan_is_kept(body):
     outer.nodes.new("ShaderNodeBump")
     tree.nodes.clear()
     tree.nodes.new("ShaderNodeGroup").node_tree = outer
-    material, former = body.material_slots[0].material, of_role(body, "colour").image.size[1]
+    material, former = body.material_slots[0].material, of_role(body, "states").image.size[1]
     body.skin_tan.last_day = 10.0
     apply(body)
     assert body.material_slots[0].material == material
     assert [node.bl_idname for node in outer.nodes] == ["ShaderNodeGroup", "ShaderNodeBump"]
     assert len(tree.nodes) == 1 and len(bpy.data.node_groups) == 2
-    assert of_role(body, "colour").image.size[1] < former
+    assert of_role(body, "states").image.size[1] < former
 
 
 def test_a_group_nested_in_a_shared_one_is_copied_with_it(body):
@@ -245,25 +255,26 @@ def test_what_an_artist_did_inside_the_group_is_kept(body):
     apply(body)
     assert skin.inputs["Base Color"].links[0].from_node == freckles
     assert skin.inputs["Coat Weight"].default_value == pytest.approx(0.2)
-    assert len(group.nodes) == len(nodes.ROLES) + 1
+    assert len(group.nodes) == len(plan.ROLES) + 1
 
 
 def test_a_texture_of_one_s_own_with_the_tan_s_image_follows(body):
     """It is the object's; the same image in another object's material stays."""
     tree = body.material_slots[0].material.node_tree
     mine = tree.nodes.new("ShaderNodeTexImage")
-    mine.image = of_role(body, "colour").image
+    mine.image = of_role(body, "states").image
     apply(body)
-    assert mine.image == of_role(body, "colour").image and len(bpy.data.images) == 2
+    assert mine.image == of_role(body, "states").image
+    assert len(bpy.data.images) == OWN_IMAGES + LOOK_IMAGES
     hands = bpy.data.objects.new("Hands", bpy.data.meshes.new("Hands"))
     material = bpy.data.materials.new("Hands")
     if material.node_tree is None:
         material.use_nodes = True
     hands.data.materials.append(material)
     theirs = material.node_tree.nodes.new("ShaderNodeTexImage")
-    former = theirs.image = of_role(body, "colour").image
+    former = theirs.image = of_role(body, "states").image
     apply(body)
-    assert theirs.image == former != of_role(body, "colour").image
+    assert theirs.image == former != of_role(body, "states").image
 
 
 def test_a_node_that_was_removed_is_told_and_stays_away(body, capfd):
@@ -271,7 +282,7 @@ def test_a_node_that_was_removed_is_told_and_stays_away(body, capfd):
     group.nodes.remove(of_role(body, "colour"))
     assert apply(body) == {"FINISHED"}
     assert "The tan does not show: nodes were removed" in capfd.readouterr().out
-    assert len(group.nodes) == len(nodes.ROLES) - 1
+    assert len(group.nodes) == len(plan.ROLES) - 1
 
 
 def test_what_was_deleted_is_made_anew(body):
@@ -312,38 +323,11 @@ def test_a_neighbour_s_skin_in_a_slot_of_its_own_is_left_alone(body, table_path)
 
 
 def test_a_group_of_a_newer_version_is_refused(body):
-    body.skin_tan.group[nodes.LAYOUT_KEY] = 99
+    body.skin_tan.group[plan.LAYOUT_KEY] = 99
     before = look(body)
     with pytest.raises(RuntimeError, match="A newer version of this add-on made the node group"):
         apply(body)
-    assert look(body) == before and len(bpy.data.images) == 2
-
-
-def artists_image(obj, how: str):
-    """An image that an artist has made his own, in the node that shows the tan's colour."""
-    image = of_role(obj, "colour").image
-    if how == "copied":
-        image = of_role(obj, "colour").image = image.copy()
-    elif how == "renamed":
-        image.name = "My tan"
-    elif how == "kept":
-        image.use_fake_user = True
-    else:
-        image = of_role(obj, "colour").image = bpy.data.images.new("Photo", 4, 4)
-    return image
-
-
-@pytest.mark.parametrize("how", ["copied", "renamed", "kept", "of another"])
-def test_an_artist_s_image_is_set_aside(body, capfd, how):
-    image = artists_image(body, how)
-    name, before = image.name, pixels(image)
-    for _ in range(2):
-        assert apply(body) == {"FINISHED"}
-    assert bpy.data.images[name] == image and image.use_fake_user
-    assert np.array_equal(pixels(image), before)
-    assert of_role(body, "colour").image != image
-    assert f"No longer shown but kept in the file: {name!r}." in capfd.readouterr().out
-    assert len(bpy.data.images) in (3, 4)  # one that no node showed before is left to Blender
+    assert look(body) == before and len(bpy.data.images) == OWN_IMAGES + LOOK_IMAGES
 
 
 def test_a_material_in_an_input_of_geometry_nodes_stays_as_it_was(body):

@@ -1,0 +1,232 @@
+"""The plan of a tan's node group: which nodes it has, what they are called, how they are linked.
+
+From the left: the share of the dose and the day lead to a place in the image of states; the state,
+with what the group's inputs change of it, to a place in the images of the skin's look; these, by
+the angle of view, to the base colours of two shaders.
+"""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+LAYOUT_KEY, LAYOUT = "skin_tan_layout", 2
+"""Custom property of a group that says that this add-on made it, and by which plan."""
+
+PROFILE_KEY = "skin_tan_profile"
+"""Custom property of a group: whether its table has a profile, so that light scatters below."""
+
+ROLE_KEY = "skin_tan_role"
+
+DAY_PROPERTY = "tan_day"
+
+INDEX = 1.5526
+"""Index of refraction of the surface of the skin in the model."""
+
+MOST_BASE = (0.999, 0.999, 0.999)
+"""What a base colour is cut to; with more than 1 a shader would make light."""
+
+
+@dataclass(frozen=True)
+class Role:
+    """A kind of node in the group.
+
+    Attributes
+    ----------
+    kind : str
+        Its type, as Blender calls it.
+    label : str
+        What an artist reads; it tells the node in files without roles.
+    location : tuple
+    values : mapping
+        Attributes that a new node is given.
+    inputs : mapping
+        Values of its inputs, by number or identifier.
+    """
+
+    kind: str
+    label: str
+    location: tuple[int, int]
+    values: dict[str, Any] = field(default_factory=dict)
+    inputs: dict[Any, Any] = field(default_factory=dict)
+
+
+def _image(label: str, location: tuple[int, int]) -> Role:
+    values = {"interpolation": "Linear", "extension": "EXTEND"}
+    return Role("ShaderNodeTexImage", label, location, values)
+
+
+def _math(operation: str, label: str, location: tuple[int, int], **inputs: float) -> Role:
+    numbered = {int(name.removeprefix("at_")): value for name, value in inputs.items()}
+    return Role("ShaderNodeMath", label, location, {"operation": operation}, numbered)
+
+
+def _vector(operation: str, label: str, location: tuple[int, int], **inputs: Any) -> Role:
+    numbered = {int(name.removeprefix("at_")): value for name, value in inputs.items()}
+    return Role("ShaderNodeVectorMath", label, location, {"operation": operation}, numbered)
+
+
+def _range(label: str, location: tuple[int, int]) -> Role:
+    return Role("ShaderNodeMapRange", label, location, {"clamp": True})
+
+
+def _principled(label: str, location: tuple[int, int]) -> Role:
+    values = {"subsurface_method": "BURLEY", "distribution": "MULTI_GGX"}
+    return Role(
+        "ShaderNodeBsdfPrincipled",
+        label,
+        location,
+        values,
+        {"Subsurface Weight": 0.0, "IOR": INDEX},
+    )
+
+
+LOOK = {
+    "colour": "Colour",
+    "bend": "Bend",
+    "bow": "Bow",
+    "near": "Near share",
+    "width": "Far width",
+}
+"""Roles of the images of a look, and how they are called. `bend` and `bow` tell how colour changes
+with the angle of view."""
+
+ROLES = {
+    "mask": Role("ShaderNodeAttribute", "Share", (-1600, 250), {"attribute_type": "GEOMETRY"}),
+    "share": _math("MAXIMUM", "Share or all", (-1400, 250)),
+    "day": Role(
+        "ShaderNodeAttribute",
+        "Day",
+        (-1400, 0),
+        {"attribute_type": "OBJECT", "attribute_name": DAY_PROPERTY},
+    ),
+    "column": _math("MULTIPLY_ADD", "Share to column", (-1200, 250)),
+    "row": _math("MULTIPLY_ADD", "Day to row", (-1200, 0)),
+    "columns": _image("Columns of shares", (-1000, 250)),
+    "rows": _image("Rows of days", (-1000, -50)),
+    "column_place": Role("ShaderNodeSeparateXYZ", "Column", (-700, 250)),
+    "row_place": Role("ShaderNodeSeparateXYZ", "Row", (-700, -50)),
+    "place": Role("ShaderNodeCombineXYZ", "Place in table", (-500, 150)),
+    "states": _image("States", (-300, 150)),
+    "state": Role("ShaderNodeSeparateXYZ", "Melanin, thickness, blood", (0, 150)),
+    "input": Role("NodeGroupInput", "", (-200, 500)),
+    "melanin": _math("EXPONENT", "Melanin", (200, 300)),
+    "more_melanin": _math("MULTIPLY", "More or less melanin", (350, 300)),
+    "root": _math("SQRT", "Root of melanin", (500, 300)),
+    "least_blood": _math("MAXIMUM", "Some blood", (0, -100), at_1=0.001),
+    "more_blood": _math("LOGARITHM", "Logarithm of blood", (200, -100), at_1=2.718281828),
+    "blood": _math("ADD", "More or less blood", (350, -100)),
+    "look_column": _math("MULTIPLY_ADD", "Melanin to column", (500, 150)),
+    "look_row": _range("Blood to row", (500, -100)),
+    "thickness": _math("MULTIPLY_ADD", "Thin to thick", (500, -350)),
+    "look_place": Role("ShaderNodeCombineXYZ", "Place in look", (700, 150)),
+    "thick_place": _vector(
+        "MULTIPLY_ADD",
+        "Place for thick skin",
+        (700, -50),
+        at_1=(1.0, -1.0, 1.0),
+        at_2=(0.0, 1.0, 0.0),
+    ),
+    "middle_place": _vector("MULTIPLY", "Place for all skin", (700, -250), at_1=(1.0, 2.0, 1.0)),
+    # Files without roles call two of them so.
+    "colour": _image("Colour", (900, 500)),
+    "thick_colour": _image("Colour, thick skin", (900, 200)),
+    "mixed_colour": Role(
+        "ShaderNodeMix", "By thickness", (1200, 500), {"data_type": "RGBA", "clamp_factor": True}
+    ),
+    "bend": _image("Bend", (900, -100)),
+    "bow": _image("Bow", (900, -400)),
+    "near": _image("Near share", (900, -700)),
+    "width": _image("Profile width (mm)", (900, -1000)),
+    "untanned_place": Role("ShaderNodeCombineXYZ", "Untanned", (700, 800)),
+    "untanned": _image("Untanned colour", (900, 800)),
+    "ratio": _vector("DIVIDE", "Ratio to untanned", (1500, 800)),
+    "facing": Role("ShaderNodeLayerWeight", "Angle of view", (1000, 1050), {}, {"Blend": 0.5}),
+    "slope": _vector("MULTIPLY_ADD", "Bow and bend", (1400, 200)),
+    "gain": _vector("MULTIPLY_ADD", "Change with the angle", (1550, 200)),
+    "base": _vector("MULTIPLY", "Base colour", (1700, 400)),
+    "near_part": _vector("MULTIPLY", "Near part", (1850, 200)),
+    "far_part": _vector("SUBTRACT", "Far part", (1850, 400)),
+    "near_scaled": _vector("SCALE", "By weight of near light", (2000, 200)),
+    "far_scaled": _vector("SCALE", "By weight of far light", (2000, 400)),
+    "near_base": _vector("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
+    "far_base": _vector("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
+    "radius": Role("ShaderNodeValue", "Width to radius", (2000, -100)),
+    "near_skin": _principled("Skin, near light", (2350, 0)),
+    "skin": _principled("Skin", (2350, 500)),
+    "lobes": Role("ShaderNodeMixShader", "Near and far light", (2700, 400)),
+    "output": Role("NodeGroupOutput", "", (2950, 300)),
+}
+
+SHADERS = frozenset(
+    "near_skin lobes near_base far_base near_scaled far_scaled near_part far_part base gain slope "
+    "facing".split()
+)
+"""Roles that nobody needs where an artist has put another shader in place of ours."""
+
+LINKS = (
+    ("mask", "Fac", "share", 0),
+    ("share", "Value", "column", 0),
+    ("day", "Fac", "row", 0),
+    ("column", 0, "columns", "Vector"),
+    ("row", 0, "rows", "Vector"),
+    ("columns", "Color", "column_place", "Vector"),
+    ("rows", "Color", "row_place", "Vector"),
+    ("column_place", "X", "place", "X"),
+    ("row_place", "Y", "place", "Y"),
+    ("place", "Vector", "states", "Vector"),
+    ("states", "Color", "state", "Vector"),
+    ("state", "X", "melanin", 0),
+    ("melanin", "Value", "more_melanin", 0),
+    ("input", "Melanin", "more_melanin", 1),
+    ("more_melanin", "Value", "root", 0),
+    ("root", "Value", "look_column", 0),
+    ("input", "Blood", "least_blood", 0),
+    ("least_blood", "Value", "more_blood", 0),
+    ("state", "Z", "blood", 0),
+    ("more_blood", "Value", "blood", 1),
+    ("blood", "Value", "look_row", "Value"),
+    ("state", "Y", "thickness", 0),
+    ("look_column", "Value", "look_place", "X"),
+    ("look_row", "Result", "look_place", "Y"),
+    ("look_place", "Vector", "thick_place", 0),
+    ("look_place", "Vector", "middle_place", 0),
+    ("look_place", "Vector", "colour", "Vector"),
+    ("thick_place", "Vector", "thick_colour", "Vector"),
+    ("thickness", "Value", "mixed_colour", "Factor_Float"),
+    ("colour", "Color", "mixed_colour", "A_Color"),
+    ("thick_colour", "Color", "mixed_colour", "B_Color"),
+    *(("middle_place", "Vector", role, "Vector") for role in ("bend", "bow", "near", "width")),
+    ("untanned_place", "Vector", "untanned", "Vector"),
+    ("mixed_colour", "Result_Color", "ratio", 0),
+    ("untanned", "Color", "ratio", 1),
+    ("bow", "Color", "slope", 0),
+    ("facing", "Facing", "slope", 1),
+    ("bend", "Color", "slope", 2),
+    ("slope", "Vector", "gain", 0),
+    ("facing", "Facing", "gain", 1),
+    ("mixed_colour", "Result_Color", "base", 0),
+    ("gain", "Vector", "base", 1),
+    ("base", "Vector", "near_part", 0),
+    ("near", "Color", "near_part", 1),
+    ("base", "Vector", "far_part", 0),
+    ("near_part", "Vector", "far_part", 1),
+    ("near_part", "Vector", "near_scaled", 0),
+    ("far_part", "Vector", "far_scaled", 0),
+    ("near_scaled", "Vector", "near_base", 0),
+    ("far_scaled", "Vector", "far_base", 0),
+    ("near_base", "Vector", "near_skin", "Base Color"),
+    ("far_base", "Vector", "skin", "Base Color"),
+    ("width", "Color", "skin", "Subsurface Radius"),
+    ("radius", "Value", "skin", "Subsurface Scale"),
+    *(("input", "Roughness", role, "Roughness") for role in ("skin", "near_skin")),
+    *(("input", "Specular", role, "Specular IOR Level") for role in ("skin", "near_skin")),
+    ("near_skin", "BSDF", "lobes", 1),
+    ("skin", "BSDF", "lobes", 2),
+    ("lobes", "Shader", "output", "Surface"),
+    ("mixed_colour", "Result_Color", "output", "Colour"),
+    ("width", "Color", "output", "Far Width"),
+    ("ratio", "Vector", "output", "Ratio"),
+    ("near", "Color", "output", "Near Share"),
+    ("share", "Value", "output", "Share"),
+)
+"""From a role and its output to a role and its input; by name or identifier, or by number where
+names are alike or a node of earlier plans has others."""

@@ -1,0 +1,141 @@
+"""Images of a skin's look against its table."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sampled import looked_up
+from synthetic import (
+    BY_ANGLE,
+    MED,
+    MMD,
+    NEAR_SHARE,
+    ROUGHNESS,
+    UNTANNED_COLOUR,
+    UNTANNED_WIDTH,
+    colour_of,
+    former_table,
+    smooth_table,
+)
+
+from blender_addon.model import catalogue
+from blender_addon.model.layer import let_through
+from blender_addon.model.look import look
+from hylios.lab.colour import difference
+from hylios.table import MinimalDoses, melanin_dynamics, minimal_doses
+from hylios.tanning import Exposures, states_at
+
+DOSES = MinimalDoses(mmd=MMD, med=MED)
+
+
+def random_states(table, count: int = 400) -> np.ndarray:
+    """States that random schedules lead to, (count, 4)."""
+    random, minimal = np.random.default_rng(4), minimal_doses(table.provenance)
+    doses = np.zeros((count // 20, 8))
+    doses[:] = random.uniform(0.35, 8.0, doses.shape) * minimal.mmd
+    doses *= random.random(doses.shape) < 0.6
+    states = states_at(
+        Exposures(np.sort(random.integers(0, 900, 8)), doses),
+        melanin_dynamics(table.provenance),
+        times=random.uniform(0.0, 1440.0, 20),
+        mmd=minimal.mmd,
+        med=minimal.med,
+    )
+    return states.reshape(-1, 4)
+
+
+def places(states: np.ndarray, more_melanin=1.0, blood=1.0) -> np.ndarray:
+    melanin = np.log(states[:, :3].sum(axis=1) * more_melanin)
+    return np.stack([melanin, np.log(states[:, 3]), np.full(len(states), np.log(blood))], axis=1)
+
+
+@pytest.mark.parametrize("more_melanin", [0.01, 1.0, 2.5])
+@pytest.mark.parametrize("blood", [1.0, 3.0])
+def test_colour_at_reachable_states(table, more_melanin, blood):
+    """Freckles and flush among them: such a state is that of the place with more of one thing."""
+    states = random_states(table)
+    shown = looked_up(skin := look(table, DOSES), skin.colour, places(states, more_melanin, blood))
+    changed = np.column_stack(
+        [more_melanin * states[:, :3], states[:, 3], np.full(len(states), blood)]
+    )
+    error = difference(shown, colour_of(changed))
+    assert error.mean() < 0.03
+    assert error.max() < 0.15
+
+
+def test_without_sun_it_is_the_table_s_colour(table):
+    skin = look(table, DOSES)
+    shown = looked_up(skin, skin.colour, np.zeros((1, 3)))[0]
+    assert shown == pytest.approx(UNTANNED_COLOUR, abs=2e-4)
+
+
+@pytest.mark.parametrize("shipped", catalogue.SHIPPED, ids=lambda shipped: shipped.name)
+def test_shipped_tables_along_their_states(shipped):
+    table = catalogue.table(shipped.path)
+    skin = look(table, minimal_doses(table.provenance))
+    states = random_states(table)
+    error = difference(
+        looked_up(skin, skin.colour, places(states)), table.plane("subsurface_colour", states)
+    )
+    assert error.mean() < 0.06
+    assert np.quantile(error, 0.99) < 0.3
+
+
+def test_base_and_gloss_give_the_table_s_colour_at_all_angles(table):
+    skin = look(table, DOSES)
+    origin = np.zeros((1, 3))
+    colour, bend, bow = (
+        looked_up(skin, image, origin)[0] for image in (skin.colour, skin.bend, skin.bow)
+    )
+    for angle, close in ((8, 1e-4), (45, 0.005), (60, 0.013), (70, 0.01)):
+        ratio = np.array(BY_ANGLE.get(angle, 1.0))
+        x = 1.0 - np.cos(np.radians(angle if angle > 8 else 0))
+        base = colour * (skin.level + bend * x + bow * x * x)
+        shown = base * let_through(skin.roughness, angle) / colour
+        assert shown == pytest.approx(np.ones(3) * ratio, rel=close)
+
+
+def test_near_and_far_light(table):
+    skin = look(table, DOSES)
+    assert skin.near == pytest.approx(np.broadcast_to(NEAR_SHARE, skin.near.shape), abs=1e-6)
+    assert skin.roughness == pytest.approx(ROUGHNESS)
+    require_bases_below_1(skin)
+
+
+def require_bases_below_1(skin) -> None:
+    base, near = skin.level * skin.colour[: len(skin.near)], skin.near
+    assert (base * near).max() / skin.near_weight < 1.0
+    assert (base * (1.0 - near)).max() / (1.0 - skin.near_weight) < 1.0
+
+
+def test_a_table_of_format_3():
+    """One width, no near light, no angle, blood passed over; colour as its states have it."""
+    table = former_table()
+    skin = look(table, DOSES)
+    assert not (skin.near.any() or skin.bend.any() or skin.bow.any() or skin.near_weight)
+    assert skin.has_profile and len(skin.colour) == 2
+    states = random_states(table)
+    for blood in (1.0, 4.0):
+        error = difference(
+            looked_up(skin, skin.colour, places(states, blood=blood)),
+            table.plane("subsurface_colour", states),
+        )
+        assert error.mean() < 0.03
+    width = looked_up(skin, skin.far, places(states)) / table.plane("profile_width", states)
+    assert width == pytest.approx(np.ones(width.shape), abs=0.09)
+    assert looked_up(skin, skin.far, np.zeros((1, 3)))[0] == pytest.approx(UNTANNED_WIDTH, rel=0.01)
+
+
+def test_a_table_without_a_profile(table):
+    planes = {name: table.planes[name] for name in ("subsurface_colour", "total_colour")}
+    skin = look(replace(table, planes=planes), DOSES)
+    assert not skin.has_profile and not skin.far.any() and not skin.near_weight
+
+
+def test_pale_skin_needs_no_base_colour_above_1():
+    table = smooth_table()
+    pale = replace(
+        table, planes={**table.planes, "subsurface_colour": np.full((*table.axes.shape, 3), 0.7)}
+    )
+    skin = look(pale, DOSES)
+    require_bases_below_1(skin)

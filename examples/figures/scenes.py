@@ -26,8 +26,7 @@ from hylios.commands.shell import run
 from hylios.lab.colour import srgb
 
 FRAMES_PER_DAY = 4
-SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.30, 0.65
-SKIN_ROUGHNESS, SKIN_SPECULAR = 0.45, 0.5
+SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.20, 0.65
 
 
 def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> None:
@@ -62,21 +61,18 @@ def frame_of(day: float) -> int:
 def set_gloss(material: bpy.types.Material, *, sunscreen: bool) -> None:
     """Have skin that the sun does not reach shine as sunscreen does, or as skin."""
     tree = material.node_tree
-    skin = next(node for node in tree.nodes if node.type == "GROUP")
+    skin = next(node for node in tree.nodes if "Surface" in node.outputs)
     for node in [node for node in tree.nodes if node.label == "Sunscreen"]:
         tree.nodes.remove(node)
     if not sunscreen:
         return
     share = tree.nodes.new("ShaderNodeAttribute")
     share.attribute_name, share.label = scene.MASK, "Sunscreen"
-    for name, covered, bare in (
-        ("Roughness", SUNSCREEN_ROUGHNESS, SKIN_ROUGHNESS),
-        ("Specular", SUNSCREEN_SPECULAR, SKIN_SPECULAR),
-    ):
+    for name, covered in (("Roughness", SUNSCREEN_ROUGHNESS), ("Specular", SUNSCREEN_SPECULAR)):
         mixed = tree.nodes.new("ShaderNodeMapRange")
         mixed.label = "Sunscreen"
         mixed.inputs["To Min"].default_value = covered
-        mixed.inputs["To Max"].default_value = bare
+        mixed.inputs["To Max"].default_value = skin.inputs[name].default_value
         tree.links.new(share.outputs["Fac"], mixed.inputs["Value"])
         tree.links.new(mixed.outputs["Result"], skin.inputs[name])
 

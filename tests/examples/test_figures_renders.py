@@ -190,7 +190,7 @@ def test_three_schedules_on_one_object_are_three_materials(table):
         assert names == ["Skin Tan Suzanne", "Skin Tan Suzanne 1", "Skin Tan Suzanne 2"]
         assert [obj.name for obj in bpy.data.objects if obj.type == "MESH"] == ["Suzanne"]
         melanin = [
-            np.array(bpy.data.images[f"Skin Tan States {name[9:]}"].pixels[::4]).max()
+            np.array(bpy.data.images[f"Skin Tan States {name[9:]}"].pixels[:])[::4].max()
             for name in names
         ]
         assert melanin[0] < melanin[1] < melanin[2]  # stronger schedules are darker

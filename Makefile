@@ -71,10 +71,10 @@ release: package
 	    --constraint $(VENV)/constraints.txt --editable ".[release]"
 	@SOURCE_DATE_EPOCH=$$(git log -1 --format=%ct) $(BIN)/python -m build --outdir dist >/dev/null
 
-# The tables that the add-on carries; each takes seconds, of dark skin a minute.
+# The tables that the add-on carries; each takes some ten seconds.
 TABLES := I II III IV V VI S1 S2 S3 S4
 .PHONY: tables
 tables: environment
 	@for name in $(TABLES); do \
-	    $(BIN)/lut-builder build --specimen $$name --force -o blender_addon/tables/$$name.exr || exit; \
+	    $(BIN)/lut-builder build --specimen $$name --half --force -o blender_addon/tables/$$name.exr || exit; \
 	done

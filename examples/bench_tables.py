@@ -28,7 +28,7 @@ SKIN, DARKEST = "III", "VI"
 
 FINE_NODES = 40
 
-SPECTRA = Settings((8, 4, 2), colour_wavelengths=0, bands=tuple(FINE), profile_error=0.0)
+SPECTRA = Settings((8, 2, 2, 2), colour_wavelengths=0, bands=tuple(FINE), profile_error=0.0)
 """64 states at 61 wavelengths."""
 
 WALKED_STATES, WALKED_STEP, WALKED_RAYS = 4, 4, 200_000
@@ -36,12 +36,12 @@ PRINTED_RAYS = 500
 ERROR = 1e-3
 """RMSE at which solver and random walk are compared."""
 
-PEER = Settings((14, 8, 7, 6), bands=(), profile_error=0.0)
+PEER = Settings((14, 6, 8, 7), bands=(), profile_error=0.0)
 """As many cells as the nearest public peer's table has, 4704: here states with three channels."""
 
 PEER_CHECKED = 200
 
-PRESET_LIMITS = {"preview": (3.0, 0.5, 1.5), "standard": (60.0, 0.1, 0.3), "reference": (1200.0,)}
+PRESET_LIMITS = {"preview": (4.0, 0.5, 1.5), "standard": (20.0, 0.08, 0.25), "reference": (1200.0,)}
 """Seconds, and mean and largest CIEDE2000, at most."""
 
 STANDARD_KILOBYTES = 300.0
@@ -110,7 +110,7 @@ def solver_error(skin: Skin, table: SkinTable) -> tuple[float, float]:
 
     The walk's variance is taken off the mean square.
     """
-    states = table.axes.knot_states().reshape(-1, 4)
+    states = table.axes.knot_states().reshape(-1, 5)
     by_table = table.planes["band_reflectance"].reshape(len(states), -1)[:, ::WALKED_STEP]
     excess = []
     for place in np.linspace(0, len(states) - 1, WALKED_STATES).astype(int):
@@ -126,7 +126,7 @@ def solver_error(skin: Skin, table: SkinTable) -> tuple[float, float]:
 
 def printed_seconds(skin: Skin, table: SkinTable, number: int) -> float:
     """Seconds of one core for a ray as the thesis prints it, at a knot."""
-    states = table.axes.knot_states().reshape(-1, 4)
+    states = table.axes.knot_states().reshape(-1, 5)
     state = states[(number * len(states)) // REPEATS]
     specimen = skin.at(state)
 
@@ -159,7 +159,7 @@ def report_peer(skin: Skin) -> None:
 
 def albedo_errors(skin: Skin, table: SkinTable) -> np.ndarray:
     """Relative error (N, 3) of channels of the albedo at some knots."""
-    states = table.axes.knot_states().reshape(-1, 4)
+    states = table.axes.knot_states().reshape(-1, 5)
     albedo = table.planes["subsurface_colour"].reshape(-1, 3)
     weights = rec709_weights(FINE)
     errors = []

@@ -7,8 +7,6 @@ from os import cpu_count
 import numpy as np
 
 import hylios
-from hylios.burley import burley_width
-from hylios.quadrature import skin_quadrature
 from hylios.skin import UNTANNED, Skin
 from hylios.skin.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.skin.specimen import Specimen
@@ -18,9 +16,11 @@ from hylios.tissue import SPECTRA, Model
 from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
 from lut_builder.jobs.units import Unit
+from lut_builder.lighting import Lighting
+from lut_builder.near_far_fit import fitted, terms
 from lut_builder.own_spectra import described_spectra
-from lut_builder.reachable import choose_axes, needed_knots
-from lut_builder.request import ANGLE, Piece, Request, computed, pieces, wavelengths
+from lut_builder.reachable import choose_axes, within
+from lut_builder.request import ANGLE, ANGLES, WATER, Piece, Request, computed, pieces, wavelengths
 from lut_builder.settings import Settings
 
 SOLVER_ERROR = 3e-4
@@ -37,6 +37,7 @@ def requested(
     seed: int = 1,
     model: Model | None = None,
     reached: np.ndarray | None = None,
+    lighting: Lighting | None = None,
 ) -> Request:
     """What has to be computed for a skin's table.
 
@@ -46,30 +47,23 @@ def requested(
         Spectra and readings, the project's own by default.
     reached : (N, 4) array, optional
         Tanning states that a scene leads through, for a table of these alone.
+    lighting : Lighting, optional
+        Of the colours, D65 and CIE 1931 2 degree by default.
 
     Raises
     ------
     InputError
         If the skin has a layer without melanin (`lut_builder.reachable.untanned_state`).
     """
-    whole = axes = choose_axes(skin, settings.knots)
-    states, needed, within = axes.knot_states(), np.ones(axes.shape, bool), None
-    if reached is not None:
-        from lut_builder.scene_axes import farthest, laid_over  # scipy
-
-        axes, states = laid_over(whole, reached)
-        needed = needed_knots(axes, reached, settings.interpolation)
-        within = farthest(axes, states, reached, settings.interpolation)
+    whole = choose_axes(skin, settings.knots)
     return Request(
         skin,
         settings,
-        axes,
-        states,
-        needed,
+        whole if reached is None else within(whole, reached),
         whole=int(np.prod(whole.shape)),
-        within=within,
         seed=seed,
         model=model or Model(),
+        lighting=lighting or Lighting(),
     )
 
 
@@ -86,12 +80,13 @@ def build(
     threads: int | None = None,
     model: Model | None = None,
     reached: np.ndarray | None = None,
+    lighting: Lighting | None = None,
 ) -> SkinTable:
     """Build a skin's table in this process; the same whatever the number of threads.
 
     Parameters as in `requested`, errors as there and in `lut_builder.request.computed`.
     """
-    request = requested(skin, settings, seed=seed, model=model, reached=reached)
+    request = requested(skin, settings, seed=seed, model=model, reached=reached, lighting=lighting)
     runner = in_threads(threads or cpu_count() or 1)
     return assembled(request, run_units(units(request), None, "", runner))
 
@@ -99,13 +94,9 @@ def build(
 def assembled(request: Request, results: Results) -> SkinTable:
     """The table of a request from the results of its pieces."""
     settings, parts = request.settings, pieces(request)
-    planes = _reflectance_planes(settings, parts, results)
+    planes = _reflectance_planes(request, parts, results)
     if settings.has_profile:
-        planes.update(_profile_planes(settings, parts, results))
-    if request.within is not None:
-        planes["state"] = _state_plane(request, request.within)
-        nearest = _nearest_computed(request.needed)
-        planes = {name: plane[nearest] for name, plane in planes.items()}
+        planes.update(_near_far_planes(request, parts, results))
     cut = sum(request.skin.overfull(state) for state in request.states)
     return SkinTable(
         axes=request.axes,
@@ -119,85 +110,73 @@ def assembled(request: Request, results: Results) -> SkinTable:
     )
 
 
-def _state_plane(request: Request, within: float) -> np.ndarray:
-    """The states that were computed, and how near to them a table for one scene holds, (N, 5)."""
-    ratios = np.log(request.states / request.axes.untanned)
-    return np.concatenate([ratios, np.full((len(ratios), 1), within)], axis=1)
-
-
-def _nearest_computed(needed: np.ndarray) -> np.ndarray:
-    """Number of the computed state that stands for a knot: its own, or the nearest."""
-    computed_knots = np.argwhere(needed)
-    return np.array(
-        [((computed_knots - place) ** 2).sum(axis=1).argmin() for place in np.ndindex(needed.shape)]
-    )
-
-
 def _reflectance_planes(
-    settings: Settings, parts: list[Piece], results: Results
+    request: Request, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
-    """Colours and bands, (states, components).
+    """Colours and bands, (states, components)."""
+    settings = request.settings
+    colours = sorted((piece for piece in parts if piece.kind == "colours"), key=lambda p: p.first)
+    piece_results = [results[piece.name] for piece in colours]
+
+    def joined(name: str, axis: int) -> np.ndarray:
+        return np.concatenate([piece[name] for piece in piece_results], axis=axis)
+
+    subsurface = joined("subsurface", 1)
+    total = subsurface + joined("surface", 1)
+    planes = {}
+    count = settings.colour_wavelengths
+    if count:
+        weights = request.lighting.weights(count)
+        planes = {
+            "subsurface_colour": _colour(subsurface[0], weights),
+            "total_colour": _colour(total[0], weights),
+            **{
+                f"subsurface_colour_{angle:g}": _colour(light, weights)
+                for angle, light in zip(ANGLES[1:], subsurface[1:], strict=True)
+            },
+            "total_colour_45": _colour(total[ANGLES.index(45.0)], weights),
+            "wet_subsurface_colour": _colour(joined("wet_subsurface", 0), weights),
+            "colour_error": np.tile(
+                SOLVER_ERROR * np.abs(weights).sum(axis=1), (total.shape[1], 1)
+            ),
+        }
+    if settings.bands:
+        planes["band_reflectance"] = total[0, :, count:]
+    return planes
+
+
+def _colour(reflectance: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Colours (N, 3) of reflectances, of which those of the first wavelengths (N, W or more) count.
 
     A colour beyond what Rec.709 can show, as of skin full of carotene, has 0 in the channel that
     would be negative.
     """
-    colours = sorted((piece for piece in parts if piece.kind == "colours"), key=lambda p: p.first)
-    piece_results = [results[piece.name] for piece in colours]
-    subsurface = np.concatenate([piece["subsurface"] for piece in piece_results])
-    total = subsurface + np.concatenate([piece["surface"] for piece in piece_results])
-    planes = {}
-    count = settings.colour_wavelengths
-    if count:
-        weights = skin_quadrature(count).weights
-        error = SOLVER_ERROR * np.abs(weights).sum(axis=1)
-        planes["subsurface_colour"] = np.maximum(subsurface[:, :count] @ weights.T, 0.0)
-        planes["total_colour"] = np.maximum(total[:, :count] @ weights.T, 0.0)
-        planes["colour_error"] = np.tile(error, (len(total), 1))
-    if settings.bands:
-        planes["band_reflectance"] = total[:, count:]
-    return planes
+    return np.maximum(reflectance[:, : weights.shape[1]] @ weights.T, 0.0)
 
 
-def channel_widths(light: np.ndarray) -> np.ndarray:
-    """Widths (...) in mm of the profiles of colour channels, from their light (..., bins)."""
-    from hylios.transport.simulate import DISTANCE_EDGES  # numba
-
-    seen = np.maximum(light, 0.0)
-    seen[~seen.any(axis=-1), 0] = 1.0  # where no light comes out any width will do
-    return np.asarray(burley_width(DISTANCE_EDGES, seen))
-
-
-def _profile_planes(
-    settings: Settings, parts: list[Piece], results: Results
+def _near_far_planes(
+    request: Request, parts: list[Piece], results: Results
 ) -> dict[str, np.ndarray]:
-    """Width of each colour channel's profile, its error and effective sample size, (states, 3).
+    """Near share and far width of each colour channel with their errors, (states, 3).
 
     A channel's profile is the sum of those of the wavelengths, weighted as they make the channel's
     colour, be it negatively.
     """
-    from hylios.transport.shared_profiles import Profiles  # numba
-
-    walked = sorted(
+    walks = sorted(
         (piece for piece in parts if piece.kind == "profile"), key=lambda p: p.wavelength
     )
-    walks = [results[piece.name] for piece in walked]
-    light = np.stack([piece["light"] for piece in walks], axis=1)
-    squares = np.stack([piece["squares"] for piece in walks], axis=1)
-    widths, errors, samples = [], [], []
-    for weights in skin_quadrature(settings.profile_wavelengths).weights:
-        channel = Profiles(
-            light=np.einsum("w,swb->sb", weights, light),
-            squares=np.einsum("w,swb->sb", weights**2, squares),
-            rays=walks[0]["rays"],
-            anew=walks[0]["anew"],
-        )
-        widths.append(channel_widths(channel.light))
-        errors.append(channel.standard_error.max(axis=1))
-        samples.append(channel.effective_sample_size)
+    light = np.stack([results[piece.name]["light"] for piece in walks], axis=1)
+    walked, wanted = (
+        terms(request.skin, request.axes, states)
+        for states in (request.walked_states, request.states)
+    )
+    channels = [
+        fitted(walked, np.einsum("w,swb->sb", weights, light), wanted)
+        for weights in request.lighting.weights(request.settings.profile_wavelengths)
+    ]
     return {
-        "profile_width": np.transpose(widths),
-        "profile_error": np.transpose(errors),
-        "profile_effective_samples": np.transpose(samples),
+        name: np.stack([getattr(channel, name) for channel in channels], axis=-1)
+        for name in ("near_share", "far_width", "near_share_error", "far_width_error")
     }
 
 
@@ -225,10 +204,10 @@ def provenance(request: Request) -> dict:
         "bands_nm": list(settings.bands),
         "angle_deg": ANGLE,
         "seed": request.seed,
-        "states_computed": int(request.needed.sum()),
+        "film_index": WATER,
+        "states_computed": len(request.states),
         "states_for_any_sun": request.whole,
-        "colour": "linear Rec.709, D65, CIE 1931 2 degree",
-        "profile_width_unit": "mm",
+        **request.lighting.described(),
         "estimated_figures": estimates_within(model.spectra, SPECTRA, wavelengths(settings)),
     }
 

@@ -7,19 +7,23 @@ import numpy as np
 
 from hylios.adding import solve
 from hylios.errors import InputError
-from hylios.lab.colour import difference, rec709_weights
+from hylios.lab.colour import difference
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin.specimen import Specimen
 from hylios.spectra import Spectra
-from hylios.table import SkinTable, skin_of
+from hylios.table import LookAxes, SkinTable, skin_of
 from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum as walked
+from lut_builder.lighting import Lighting, lighting_of
 from lut_builder.own_spectra import require_own_spectra
 from lut_builder.reachable import reachable_states
 from lut_builder.request import ANGLE
 
 FINE = np.arange(400.0, 701.0, 5.0)
 """Wavelengths in nm of a direct colour without noise."""
+
+COLOURS = {ANGLE: "total_colour", 45.0: "total_colour_45"}
+"""Planes that are checked, by the angle of incidence in degrees."""
 
 NOISE_DRAWS = 200
 
@@ -33,16 +37,23 @@ class Check:
 
     Attributes
     ----------
-    states : (N, 4) array
-        Reachable tanning states that are no knots.
+    states : (N, 5) array
+        Reachable tanning states that are no knots, of any blood that the table spans.
     differences : (N,) array
         CIEDE2000 between the table's total colour and the direct one.
+    slanting : (N,) array or None
+        The same of light that comes in at 45 degrees; None where the table has no such colour, or
+        with rays.
+    bands : (N, B) array or None
+        By how much the table's reflectance in single bands is off; None as before.
     noise : (N, draws) array or None
         CIEDE2000 that the Monte Carlo error of the direct one alone gives; None without rays.
     """
 
     states: np.ndarray
     differences: np.ndarray
+    slanting: np.ndarray | None = None
+    bands: np.ndarray | None = None
     noise: np.ndarray | None = None
 
     @property
@@ -89,41 +100,56 @@ def check(
     require_own_spectra(table.provenance, model)
     random = np.random.default_rng(seed)
     held = _between_knots(table, reachable_states(skin, 100, seed))
-    states = random.choice(held, count, replace=len(held) < count)
+    tans = random.choice(held, count, replace=len(held) < count)
+    states = np.column_stack([tans, np.exp(random.uniform(0.0, _most_blood(table), count))])
     seen = table.plane("total_colour", states)
     specimens = [skin.at(state) for state in states]
     told = progress or (lambda share: None)
     if not rays:
-        return Check(states, difference(seen, _solved(specimens, model, told)))
-    direct, spread = _walked(specimens, model, rays, seed, threads, told)
+        return _checked(table, states, specimens, model, told)
+    lighting = lighting_of(table.provenance)
+    direct, spread = _walked(specimens, model, lighting, rays, seed, threads, told)
     noise = [
         difference(own + random.multivariate_normal(np.zeros(3), covariance, NOISE_DRAWS), own)
         for own, covariance in zip(direct, spread, strict=True)
     ]
-    return Check(states, difference(seen, direct), np.array(noise))
+    return Check(states, difference(seen, direct), noise=np.array(noise))
 
 
-def _solved(specimens: list[Specimen], model: Model, told: Progress) -> np.ndarray:
-    """Colours (N, 3) by the solver, wavelength by wavelength: so it is fastest."""
-    total = np.empty((FINE.size, len(specimens)))
-    for row, wavelength in zip(total, FINE, strict=True):
-        row[:] = solve(
-            [Stack.of(specimen, float(wavelength), model) for specimen in specimens], ANGLE
-        ).total
-        told(len(specimens) / FINE.size)
-    return (rec709_weights(FINE) @ total).T
+def _checked(
+    table: SkinTable, states: np.ndarray, specimens: list[Specimen], model: Model, told: Progress
+) -> Check:
+    """The comparison with the solver, wavelength by wavelength: so it is fastest."""
+    angles = [angle for angle, plane in COLOURS.items() if plane in table.planes]
+    bands = table.provenance.get("bands_nm", []) if "band_reflectance" in table.planes else []
+    total = np.empty((FINE.size + len(bands), len(angles), len(specimens)))
+    for row, wavelength in zip(total, [*FINE, *bands], strict=True):
+        stacks = [Stack.of(specimen, float(wavelength), model) for specimen in specimens]
+        row[:] = solve(stacks, angles).total
+        told(len(specimens) / len(total))
+    direct = np.einsum(
+        "cw,was->asc", lighting_of(table.provenance).fine_weights(FINE), total[: FINE.size]
+    )
+    seen = table.lookup(states)
+    apart = {
+        angle: difference(seen[COLOURS[angle]], colour)
+        for angle, colour in zip(angles, direct, strict=True)
+    }
+    off = seen["band_reflectance"] - total[FINE.size :, 0].T if bands else None
+    return Check(states, apart[ANGLE], apart.get(45.0), off)
 
 
 def _walked(
     specimens: list[Specimen],
     model: Model,
+    lighting: Lighting,
     rays: int,
     seed: int,
     threads: int | None,
     told: Progress,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Colours (N, 3) by the random walk, and their covariances (N, 3, 3)."""
-    few = skin_quadrature(MOST)
+    few, weights = skin_quadrature(MOST), lighting.weights(MOST)
     colours, spread = [], []
     for index, specimen in enumerate(specimens):
         spectrum = walked(
@@ -135,26 +161,26 @@ def _walked(
             threads=threads,
             model=model,
         )
-        colours.append(few.weights @ spectrum.total)
-        spread.append((few.weights * spectrum.standard_error**2) @ few.weights.T)
+        colours.append(weights @ spectrum.total)
+        spread.append((weights * spectrum.standard_error**2) @ weights.T)
         told(1)
     return np.array(colours), np.array(spread)
 
 
-def _computed_states(table: SkinTable) -> np.ndarray:
-    """The states (N, 4) that were computed for a table."""
-    if "state" not in table.planes:
-        return table.axes.knot_states().reshape(-1, 4)
-    ratios = np.exp(table.planes["state"][..., :4].reshape(-1, 4))
-    return np.unique(table.axes.untanned * ratios, axis=0)
+def _most_blood(table: SkinTable) -> float:
+    """Natural logarithm of the most blood that a table spans."""
+    return float(table.axes.knots[-1][-1]) if isinstance(table.axes, LookAxes) else 0.0
 
 
 def _between_knots(table: SkinTable, states: np.ndarray) -> np.ndarray:
     """The states, out of (N, 4), that the table holds and that are not its knots."""
-    knots = np.log(_computed_states(table))
-    apart = np.full(len(states), np.inf)
-    for knot in knots:
-        apart = np.minimum(apart, np.abs(np.log(states) - knot).max(axis=1))
+    apart = np.max(
+        [
+            np.abs(place[:, None] - knots).min(axis=1)
+            for place, knots in zip(table.axes.coordinates(states).T, table.axes.knots, strict=True)
+        ],
+        axis=0,
+    )
     between = (apart > 1e-6) & table.holds(states)
     if not between.any():
         raise InputError("the table has no state between its knots that could be checked.")

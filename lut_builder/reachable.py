@@ -1,21 +1,33 @@
-"""Which tanning states a skin can reach, and the axes and knots that span them.
+"""Which tanning states a table spans, and where its knots lie.
 
-In the logarithm of (melanin of three layers, thickness) relative to the untanned skin, the states
-that sunshine can bring about lie near a curved sheet; its principal axes are the table's.
+A table reaches from skin with hardly any melanin up to a freckle at the height of its tan, and over
+blood. Melanin's knots lie where the look changes: closely where there is much to see, more closely
+still among the melanin that sunshine can bring about.
 """
+
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from hylios.adding import solve
 from hylios.errors import InputError
 from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin
-from hylios.table import StateAxes
-from hylios.tanning import Exposures
+from hylios.skin.skin import MOST_BLOOD
+from hylios.table import LookAxes
+from hylios.table.axes import BEND_DEGREE
+from hylios.tanning import Exposures, spread_of
+from hylios.tanning.spread import fitted, powers
+from hylios.tissue import Stack
 
 DAYS = 60
 MOST_EXPOSURES = 11
 LEAST_DOSE, MOST_DOSE = 0.35, 10.5
 """Limits of the random schedules: days, exposures, and doses as multiples of the MMD."""
+
+SCHEDULES = 120
+"""Schedules by which axes are chosen."""
 
 HOURS_BETWEEN = 2.0
 """Hours between two states of a scene."""
@@ -23,9 +35,33 @@ HOURS_BETWEEN = 2.0
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
 
+WIDER = 0.1
+"""The same of the spread's axis, for tans of other kinetics."""
+
 LEAST_SPAN = 1e-6
 """Least span of the states along an axis, in the logarithm. A narrower axis comes from rounding and
-gets one knot, like all but the first in skin that makes no melanin in the sun."""
+gets one knot, like the spread's in skin that makes no melanin in the sun."""
+
+LEAST_MELANIN = -6.0
+"""Logarithm of the least melanin: a quarter of a percent, which cannot be seen."""
+
+FRECKLE = 2.5
+"""Melanin of a freckle relative to the skin's around it. ESTIMATE."""
+
+SEEN_NM = (450.0, 550.0, 650.0)
+"""Wavelengths by whose lightness melanin's knots are placed."""
+
+PLACES = 41
+"""Melanin contents at which it is computed."""
+
+EVENLY = 4.0
+"""Lightness that counts as much as a step of 1 in melanin's logarithm."""
+
+WEIGHTS = {"pale": 1.0, "tan": 6.0, "freckle": 2.0}
+"""How closely knots lie below the untanned skin's melanin, within that of tans, and beyond."""
+
+NEAR = 0.01
+"""Least step of a scene's axis, in the logarithm: .09 CIEDE2000 at most."""
 
 
 def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
@@ -79,11 +115,10 @@ def untanned_state(skin: Skin) -> np.ndarray:
     return skin.untanned_state
 
 
-def choose_axes(skin: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
-    """Principal axes of the reachable states with the given numbers of knots.
+def choose_axes(skin: Skin, knots: Sequence[int], seed: int = 0) -> LookAxes:
+    """Axes with numbers of knots of melanin, thickness, spread and blood; those left out have 1.
 
-    Knots lie evenly from the smallest to the largest coordinate seen, moved so that the untanned
-    skin, at 0 on every axis, is one of them. An axis along which nothing changes gets one knot.
+    The untanned skin, at 0 on every axis, is a knot. An axis along which nothing changes gets one.
 
     Raises
     ------
@@ -91,33 +126,93 @@ def choose_axes(skin: Skin, knots: tuple[int, ...], seed: int = 0) -> StateAxes:
         As `untanned_state`.
     """
     untanned = untanned_state(skin)
-    states = reachable_states(skin, 400, seed)
-    _, _, directions = np.linalg.svd(np.log(states / untanned), full_matrices=False)
-    basis = directions[: len(knots)].T
-    basis = basis * np.sign(basis.sum(axis=0))
-    coordinates = np.log(states / untanned) @ basis
-    return StateAxes(
-        untanned=untanned,
-        basis=basis,
-        knots=tuple(
-            _knots(coordinates[:, axis].min(), coordinates[:, axis].max(), count)
-            for axis, count in enumerate(knots)
+    states = reachable_states(skin, SCHEDULES, seed)
+    direction = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med).directions[:, 0]
+    axes = LookAxes(untanned[:3], direction, _bend(untanned, direction, states), 4 * (np.zeros(1),))
+    melanin, thickness, spread, _ = axes.coordinates(states).T
+    counts = [*knots, 1, 1, 1][:4]
+    return replace(
+        axes,
+        knots=(
+            _melanin_knots(skin, axes, float(melanin.max()), counts[0]),
+            _knots(thickness.min(), thickness.max(), counts[1], MARGIN),
+            _knots(spread.min(), spread.max(), counts[2], WIDER),
+            np.linspace(0.0, np.log(MOST_BLOOD), counts[3]),
         ),
     )
 
 
-def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
+def within(axes: LookAxes, states: np.ndarray) -> LookAxes:
+    """Bounded axes over the states (N, 4) of a scene, with the whole table's knots between them.
+
+    The untanned skin is a knot, and the bend is that of the scene's own states.
+    """
+    places = axes.coordinates(states)
+    ends = np.minimum(places.min(axis=0), 0.0), np.maximum(places.max(axis=0), 0.0)
+    knots = [
+        _knots_within(own, low, high) for own, low, high in zip(axes.knots, *ends, strict=True)
+    ]
+    bend = _bend(np.append(axes.untanned, 1.0), axes.direction, states)
+    return replace(axes, bend=bend, knots=tuple(knots), bounded=True)
+
+
+def _bend(untanned: np.ndarray, direction: np.ndarray, states: np.ndarray) -> np.ndarray:
+    """`LookAxes.bend` of the states (N, 4)."""
+    ratios = np.log(states / untanned)
+    second = np.cross(np.full(3, 1.0 / np.sqrt(3.0)), direction)
+    terms = powers(ratios[:, :3] @ direction, ratios[:, 3], BEND_DEGREE)
+    return fitted(terms, ratios[:, :3] @ second)
+
+
+def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np.ndarray:
+    """Knots of melanin, one of them 0; `highest` is the most that sunshine brings about."""
+    if count == 1:
+        return np.zeros(1)
+    tanned = highest + MARGIN
+    low, high = LEAST_MELANIN, highest + np.log(FRECKLE) + MARGIN
+    if count == 2:
+        return np.array([0.0, high])
+    places = np.linspace(low, high, PLACES)
+    middle = 0.5 * (places[1:] + places[:-1])
+    weight = np.select(
+        [middle < 0.0, middle < tanned],
+        [WEIGHTS["pale"], WEIGHTS["tan"] if highest > LEAST_SPAN else WEIGHTS["freckle"]],
+        WEIGHTS["freckle"],
+    )
+    lightness = _lightness(skin, axes, places)
+    steps = np.hypot(np.linalg.norm(np.diff(lightness, axis=0), axis=1), EVENLY * np.diff(places))
+    length = np.concatenate([[0.0], np.cumsum(weight * steps)])
+    untanned = float(np.interp(0.0, places, length))
+    below = min(max(round((count - 1) * untanned / length[-1]), 1), count - 2)
+    marks = (
+        np.linspace(0.0, untanned, below + 1)[:-1],
+        np.linspace(untanned, length[-1], count - below)[1:],
+    )
+    before, after = (np.interp(mark, length, places) for mark in marks)
+    return np.concatenate([before, [0.0], after])
+
+
+def _lightness(skin: Skin, axes: LookAxes, melanin: np.ndarray) -> np.ndarray:
+    """Lightness (N, 3), as L*, of three wavelengths at contents of melanin (N,)."""
+    states = axes.states(np.stack([melanin, *(3 * [np.zeros_like(melanin)])], axis=-1))
+    specimens = [skin.at(state) for state in states]
+    total = [solve([Stack.of(one, nm) for one in specimens]).total for nm in SEEN_NM]
+    return 116.0 / np.sqrt(len(SEEN_NM)) * np.cbrt(np.transpose(total))
+
+
+def _knots(lowest: float, highest: float, count: int, margin: float) -> np.ndarray:
     """Knots over [lowest, highest], evenly spaced on either side of 0, with one at 0.
 
-    A side that is hardly reached at all, such as less melanin than the untanned skin's, gets none.
+    A side that is hardly reached at all, such as less thickness than the untanned skin's, gets
+    none.
     """
-    if highest - lowest < LEAST_SPAN:
+    if highest - lowest < LEAST_SPAN or count == 1:
         return np.zeros(1)
-    margin = MARGIN * (highest - lowest)
-    low = lowest - margin if lowest < -margin else 0.0
-    high = highest + margin if highest > margin else 0.0
+    wider = margin * (highest - lowest)
+    low = lowest - wider if lowest < -wider else 0.0
+    high = highest + wider if highest > wider else 0.0
     if count < 3:
-        return np.sort([0.0, high if high >= -low else low][:count])
+        return np.sort([0.0, high if high >= -low else low])
     below = round((count - 1) * -low / (high - low))
     if low < 0.0 < high:
         below = min(max(below, 1), count - 2)
@@ -125,18 +220,14 @@ def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
     return np.concatenate(parts)
 
 
-def needed_knots(axes: StateAxes, states: np.ndarray, interpolation: str) -> np.ndarray:
-    """Which knots a lookup at states (N, 4) reads, bool of shape `axes.shape`.
-
-    Those at the corners of the states' cells; with PCHIP their neighbours too, which its slopes
-    need.
-    """
-    needed = np.zeros(axes.shape, bool)
-    reach = 1 if interpolation == "pchip" else 0
-    lows = [
-        np.clip(np.searchsorted(knots, place, side="right") - 1, 0, max(len(knots) - 2, 0))
-        for knots, place in zip(axes.knots, axes.coordinates(states).T, strict=True)
+def _knots_within(own: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Knots from `low` to `high`, which have 0 between them: those, 0, and an axis's own inside."""
+    if len(own) == 1:
+        return np.zeros(1)
+    ends = np.array([low if low < -NEAR else 0.0, high if high > NEAR else 0.0])
+    steps = np.diff(own)
+    inner = own[1:-1][
+        (own[1:-1] - ends[0] > 0.25 * steps[:-1]) & (ends[1] - own[1:-1] > 0.25 * steps[1:])
     ]
-    for cell in np.unique(np.stack(lows, axis=1), axis=0):
-        needed[tuple(slice(max(low - reach, 0), low + 2 + reach) for low in cell)] = True
-    return needed
+    knots = np.unique(np.concatenate([ends, [0.0], inner]))
+    return knots if len(knots) != 2 else np.linspace(knots[0], knots[1], min(3, len(own)))

@@ -15,20 +15,28 @@ from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.specimen import Specimen
-from hylios.table import StateAxes
+from hylios.table import LookAxes
 from hylios.tissue import Model
+from lut_builder.lighting import Lighting
+from lut_builder.near_far_fit import design_places
 from lut_builder.settings import Settings
 
 ANGLE = 8.0
 """Angle of incidence in degrees, as reflectance is measured."""
 
+ANGLES = (ANGLE, 45.0, 60.0, 70.0)
+"""Angles of incidence in degrees of a table's colours."""
+
+WATER = 1.33
+"""Refractive index of the film on wet skin."""
+
 STATES_TOGETHER = 24
 """States in one piece of colours."""
 
-ULTRAVIOLET_SECONDS, COLOUR_SECONDS = 0.9, 1e-3
-PROFILE_SECONDS, PATH_SECONDS = 0.3, 3e-6
+ULTRAVIOLET_SECONDS, COLOUR_SECONDS = 0.9, 0.8e-3
+PROFILE_SECONDS, PATH_SECONDS = 0.3, 5e-6
 """About how long work takes on one core: the absorptance, a wavelength of a state, any profile, and
-an effective path of a state. Paths take a third in light skin, four times as much in dark skin."""
+an effective path of a state. Paths take a third in light skin, three times as much in dark skin."""
 
 
 @dataclass(frozen=True)
@@ -39,35 +47,34 @@ class Request:
     ----------
     skin : Skin
     settings : Settings
-    axes : StateAxes
-    knot_states : (*axes.shape, 4) array
-        Tanning states at the knots.
-    needed : bool array of shape `axes.shape`
-        Knots to compute.
+    axes : LookAxes
     whole : int
         Number of states that the skin's table for any sun has.
-    within : float or None
-        Of a table for one scene: how far its states lie at most from those that a lookup of
-        `knot_states` gives for them, in the logarithm of one of the four numbers.
     seed : int
     model : Model
         Spectra and readings.
+    lighting : Lighting
+        Of the colours.
     """
 
     skin: Skin
     settings: Settings
-    axes: StateAxes
-    knot_states: np.ndarray
-    needed: np.ndarray
+    axes: LookAxes
     whole: int
-    within: float | None = None
     seed: int = 1
     model: Model = field(default_factory=Model)
+    lighting: Lighting = field(default_factory=Lighting)
 
     @property
     def states(self) -> np.ndarray:
-        """Tanning states to compute, (N, 4)."""
-        return self.knot_states[self.needed]
+        """Tanning states at the knots, (N, 5)."""
+        return self.axes.knot_states().reshape(-1, 5)
+
+    @property
+    def walked_states(self) -> np.ndarray:
+        """States (M, 5) among them whose profiles are walked; no more than there are knots."""
+        count = min(self.settings.profile_states, int(np.prod(self.axes.shape)))
+        return self.axes.states(design_places(self.axes, count))
 
 
 @dataclass(frozen=True)
@@ -79,8 +86,8 @@ class Piece:
     name : str
         Of its own among the request's.
     kind : str
-        "colours" of states `first` up to `last`, a "profile" at `wavelength` nm of all states, or
-        the untanned skin's "absorptance".
+        "colours" of states `first` up to `last`, a "profile" at `wavelength` nm of all walked
+        states, or the untanned skin's "absorptance".
     size : float
         Seconds that it takes on one core, about, for the time left.
     """
@@ -113,7 +120,8 @@ def wavelengths(settings: Settings) -> np.ndarray:
 def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
     """The arrays of a piece, on one core.
 
-    Colours give `surface` and `subsurface` (states, wavelengths); a profile gives `light` and
+    Colours give `surface` and `subsurface` (angles, states, wavelengths), for `ANGLES`, and
+    `wet_subsurface` (states, wavelengths) of those of the visible; a profile gives `light` and
     `squares` (states, bins), `rays` and `anew`, as `hylios.transport.shared_profiles.Profiles` has
     them; the absorptance gives `wavelengths` and `values`, as
     `hylios.sun.action_spectra.Absorptance` has them.
@@ -139,7 +147,7 @@ def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
     from hylios.transport.shared_profiles import skin_profiles  # numba
 
     (profiles,) = skin_profiles(
-        _specimens(request, request.states),
+        _specimens(request, request.walked_states),
         [wavelength],
         error=request.settings.profile_error,
         angle=ANGLE,
@@ -158,7 +166,7 @@ def _walked(request: Request, wavelength: float) -> dict[str, np.ndarray]:
 def _profiles(request: Request) -> Iterator[Piece]:
     settings = request.settings
     if settings.has_profile:
-        paths = len(request.states) * 0.25 / settings.profile_error**2
+        paths = len(request.walked_states) * 0.25 / settings.profile_error**2
         size = PROFILE_SECONDS + paths * PATH_SECONDS
         for band in skin_quadrature(settings.profile_wavelengths).wavelengths:
             name = f"profile-{band:g}nm"
@@ -175,14 +183,27 @@ def _colours(request: Request) -> Iterator[Piece]:
 
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
+    settings, specimens = request.settings, _specimens(request, states)
     light = spectra(
-        _specimens(request, states),
-        wavelengths(request.settings),
-        angle=ANGLE,
-        nodes=request.settings.nodes,
+        specimens,
+        wavelengths(settings),
+        angle=ANGLES,
+        nodes=settings.nodes,
         model=request.model,
     )
-    return {"surface": light.surface, "subsurface": light.subsurface}
+    results = {"surface": light.surface, "subsurface": light.subsurface}
+    if settings.colour_wavelengths:
+        visible = skin_quadrature(settings.colour_wavelengths).wavelengths
+        wet = spectra(
+            specimens,
+            visible,
+            angle=ANGLE,
+            nodes=settings.nodes,
+            film=WATER,
+            model=request.model,
+        )
+        results["wet_subsurface"] = wet.subsurface
+    return results
 
 
 def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:

@@ -22,6 +22,7 @@ FIRST_NM, LAST_NM = 250.0, 2500.0
 
 FEWEST_NODES, MOST_NODES = 6, 200
 LEAST_PROFILE_ERROR, MOST_PROFILE_ERROR = 5e-4, 0.1
+FEWEST_PROFILE_STATES, MOST_PROFILE_STATES = 8, 1000
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Settings:
     Attributes
     ----------
     knots : tuple of int
-        Numbers of knots on the principal axes of the tanning states.
+        Numbers of knots of melanin, thickness, spread and blood; an axis left out has one.
     colour_wavelengths : int
         From which colours are made (`hylios.quadrature.skin_quadrature`); 0 for no colours.
     bands : tuple of float
@@ -42,6 +43,8 @@ class Settings:
         for no profile.
     profile_wavelengths : int
         From which the colour channels' profiles are made.
+    profile_states : int
+        States whose profiles are walked, for near share and far width of all.
     nodes : int
         Directions of the deterministic solver.
     interpolation : str
@@ -60,6 +63,7 @@ class Settings:
     bands: tuple[float, ...] = BANDS_NM
     profile_error: float = 0.006
     profile_wavelengths: int = 8
+    profile_states: int = 40
     nodes: int = NODES
     interpolation: str = "pchip"
     half: bool = False
@@ -74,6 +78,12 @@ class Settings:
         elif not self.bands:
             raise InputError("a table without the visible has no band; at least one is needed.")
         require_whole("number of the profile's wavelengths", self.profile_wavelengths, FEWEST, MOST)
+        require_whole(
+            "number of the profile's states",
+            self.profile_states,
+            FEWEST_PROFILE_STATES,
+            MOST_PROFILE_STATES,
+        )
         require_whole("number of bands", len(self.bands), 0, MOST_BANDS)
         for band in self.bands:
             require_range("band", band, FIRST_NM, LAST_NM, "nm")
@@ -92,7 +102,7 @@ class Settings:
 
     @property
     def has_profile(self) -> bool:
-        """Whether the table holds widths of the diffusion profile."""
+        """Whether the table holds near share and far width of the diffusion profile."""
         return self.colour_wavelengths > 0 and self.profile_error > 0.0
 
     @property
@@ -103,10 +113,15 @@ class Settings:
 
 PRESETS = {
     "preview": Settings(
-        knots=(5,), colour_wavelengths=6, profile_error=0.02, profile_wavelengths=4, nodes=14
+        knots=(9, 2, 2, 3),
+        colour_wavelengths=4,
+        profile_error=0.05,
+        profile_states=12,
+        nodes=18,
     ),
-    "standard": Settings(knots=(11, 3, 3, 2), profile_error=0.01),
-    "reference": Settings(knots=(9, 3, 3, 2), colour_wavelengths=12, profile_error=0.002),
+    "standard": Settings(knots=(16, 3, 4, 4), profile_error=0.01),
+    "reference": Settings(
+        knots=(20, 3, 5, 5), colour_wavelengths=12, profile_error=0.005, profile_states=80
+    ),
 }
-"""Points of the front of time against error that `lut-builder trade` measures, chosen by
-`lut_builder.trade.pareto.presets`."""
+"""`lut-builder trade` measures them beside the front of time against error."""

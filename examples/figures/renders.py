@@ -30,8 +30,8 @@ from examples.figures.render_results import Result, result
 from examples.figures.render_sheet import sheet
 from examples.figures.shots import UV, Shot
 from examples.figures.spectral_shots import SpectralShot
-from hylios.burley import burley_width
 from hylios.errors import InputError
+from hylios.near_far import near_share_and_far_width
 from hylios.skin import Skin
 from hylios.table import SkinTable
 from hylios.transport.simulate import DISTANCE_EDGES
@@ -42,7 +42,7 @@ from lut_builder.settings import Settings
 
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 
-SETTINGS = Settings(knots=(9, 3, 2), profile_error=0.02, bands=())
+SETTINGS = Settings(knots=(9, 2, 2), profile_error=0.03, bands=())
 """Settings of the tables: coarser than the standard preset."""
 
 TABLE_AS_LONG = 4000
@@ -52,22 +52,27 @@ UV_NM, UV_RAYS = 365.0, 100_000
 
 
 def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
-    """The table with reflectance and profile width at 365 nm in place of colour, as a grey."""
-    planes = {name: table.planes[name].copy() for name in ("subsurface_colour", "profile_width")}
+    """The table with reflectance, near share and far width at 365 nm in place of colour's, grey."""
+    grey = {
+        name: table.planes[name].copy()
+        for name in table.planes
+        if name.startswith("subsurface_colour") or name in ("near_share", "far_width")
+    }
+    states = table.axes.knot_states()
     for knot in np.ndindex(*table.axes.shape):
-        state = table.axes.knot_states()[knot]
         light = walked(
-            skin.at(state),
+            skin.at(states[knot]),
             np.array([UV_NM]),
             angle=8.0,
             rays=UV_RAYS,
             seed=effort.seed,
             threads=effort.threads,
         )
-        width = burley_width(DISTANCE_EDGES, light.exit_counts[0])
-        planes["subsurface_colour"][knot] = light.subsurface[0]
-        planes["profile_width"][knot] = width
-    return replace(table, planes={**table.planes, **planes})
+        share, width = near_share_and_far_width(DISTANCE_EDGES, light.exit_counts[0])
+        for name, plane in grey.items():
+            told = {"near_share": share, "far_width": width}.get(name, light.subsurface[0])
+            plane[knot] = told
+    return replace(table, planes={**table.planes, **grey})
 
 
 PICTURE_AS_LONG = 2000

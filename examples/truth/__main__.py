@@ -42,9 +42,6 @@ def truth(arguments: argparse.Namespace) -> None:
     rows = [row for outcome in outcomes.values() for row in outcome.rows]
     readings = [reading for outcome in outcomes.values() for reading in outcome.readings]
     seconds = time.monotonic() - started
-    print(table(rows))
-    missed = sum(row.met is False for row in rows)
-    print(f"{len(rows)} rows, {missed} not met; {seconds:.0f} s, in {arguments.out.resolve()}")
     arguments.out.mkdir(parents=True, exist_ok=True)
     machine = page.machine(seconds)
     write_rows(arguments.out / "rows.csv", rows, machine)
@@ -52,6 +49,9 @@ def truth(arguments: argparse.Namespace) -> None:
     page.draw(outcomes, arguments.out)
     if arguments.page:
         page.write(arguments.page, outcomes, machine, arguments.beside)
+    print(table(rows))
+    missed = sum(row.met is False for row in rows)
+    print(f"{len(rows)} rows, {missed} not met; {seconds:.0f} s, in {arguments.out.resolve()}")
 
 
 def compared(names: list[str]) -> dict[str, Outcome]:

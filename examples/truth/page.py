@@ -35,8 +35,7 @@ def draw(outcomes: Mapping[str, Outcome], folder: Path) -> None:
     drawings = {"albedo": _albedo, "edge": _edges, "gloss": _lobes, "slab": _slabs}
     for name, outcome in outcomes.items():
         if name in drawings:
-            whole = [reading for reading in outcome.readings if "inside" not in reading.row]
-            figure = drawings[name]({reading.case: reading for reading in whole})
+            figure = drawings[name]({reading.case: reading for reading in outcome.readings})
             write_figure(figure, folder / f"truth_{name}.png")
 
 
@@ -69,6 +68,7 @@ def write(
 def _albedo(readings: Mapping[str, Reading]) -> Figure:
     """Each type in its tans and bloods, seen from above: the render around the model's colour."""
     cases = [case for case in readings if case.endswith("at 0")]
+    cases = [case for case in cases if readings[case].row.endswith("whole")]
     columns = list(dict.fromkeys(case.split(" ", 1)[1] for case in cases))
     size, inner = 40, slice(12, 28)
     picture = np.ones((len(TYPES) * size, len(columns) * size, 3))

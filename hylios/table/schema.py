@@ -133,6 +133,7 @@ PROVENANCE: dict[str, Kind] = {
             "bands": _BANDS,
             "profile_error": number(0.0, 1.0),
             "profile_wavelengths": whole(0, 1000),
+            "profile_states": whole(0, 1000),
             "nodes": whole(1, 1000),
             "interpolation": choice(INTERPOLATIONS),
             "half": truth,
@@ -143,11 +144,20 @@ PROVENANCE: dict[str, Kind] = {
     "own_spectra_sha256": mapping_of(text),
     "bands_nm": _BANDS,
     "angle_deg": number(0.0, 90.0, "degrees"),
+    "film_index": number(1.0, 2.0),
     "seed": whole(0, 2**32 - 1),
     "states_computed": _STATES,
     "states_for_any_sun": _STATES,
     "states_with_melanin_cut": _STATES,
     "colour": text,
+    "illuminant": text,
+    "observer": text,
+    "illuminant_power": holding(
+        {
+            "wavelengths_nm": list_of(number(1.0, 1e5), 2, 10_000),
+            "values": list_of(number(0.0, 1e12), 2, 10_000),
+        }
+    ),
     "profile_width_unit": text,
     "estimated_figures": list_of(text, 0, 1000),
     "absorptance": _absorptance,

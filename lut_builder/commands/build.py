@@ -30,6 +30,7 @@ from lut_builder.commands.limits import (
     measured_points,
     point_within,
 )
+from lut_builder.lighting import DAYLIGHT, STANDARD_OBSERVER, lighting
 from lut_builder.settings import MOST_KNOTS, PRESETS, VISIBLE, Settings
 from lut_builder.trade.points import described, usable_cores
 
@@ -71,7 +72,9 @@ def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
         help="accuracy of the table (default: standard)",
     )
     add_limit_arguments(parser)
-    parser.add_argument("--knots", help="number of knots on every axis, such as 9,3,2")
+    parser.add_argument(
+        "--knots", help="numbers of knots of melanin, thickness, spread and blood, such as 15,3,4,4"
+    )
     parser.add_argument(
         "--wavelengths", type=int, help="number of wavelengths that make a colour, 4 to 16"
     )
@@ -92,6 +95,19 @@ def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--nodes", type=int, help="number of directions in the solver, 6 to 200")
     parser.add_argument(
         "--interpolation", choices=INTERPOLATIONS, help="interpolation between the knots"
+    )
+    parser.add_argument(
+        "--illuminant",
+        default=DAYLIGHT,
+        metavar="NAME|FILE.csv",
+        help="light of the colours, which is white in them: A, D50, FL2, LED-B3, ... or a spectrum "
+        f"of power by wavelength (default: {DAYLIGHT})",
+    )
+    parser.add_argument(
+        "--observer",
+        default=STANDARD_OBSERVER,
+        help="who sees them: CIE 1931 or 2015 2 degree, CIE 1964 or 2015 10 degree (default: "
+        f"{STANDARD_OBSERVER})",
     )
     parser.add_argument("--half", action="store_true", help="store numbers in 16 bits")
 
@@ -151,7 +167,14 @@ def build_table(arguments: argparse.Namespace) -> None:
         days = SCENE_DAYS if arguments.days is None else arguments.days
         schedule = _doses_of(read_schedule(arguments.schedule), arguments.schedule, days)
         reached = reached_states(skin, schedule, days)
-    request = requested(skin, settings, seed=arguments.seed, model=model, reached=reached)
+    request = requested(
+        skin,
+        settings,
+        seed=arguments.seed,
+        model=model,
+        reached=reached,
+        lighting=lighting(arguments.illuminant, arguments.observer),
+    )
     count, work = len(request.states), units(request)
     with resumable(arguments, ".exr") as unfinished:
         if reached is not None:

@@ -3,11 +3,13 @@
 import argparse
 from pathlib import Path
 
+import numpy as np
+
 from hylios.commands.shell import add_work_arguments, named_values, require_work
 from hylios.errors import InputError, require_whole
 from hylios.readers.text import shown
 from hylios.spectra import Spectra, published_spectra, with_own_spectrum
-from hylios.table import SkinTable, read_table
+from hylios.table import LookAxes, SkinTable, read_table
 from hylios.tissue import Model
 from lut_builder.commands.progress import progress
 
@@ -61,10 +63,20 @@ def check_table(arguments: argparse.Namespace) -> None:
             progress=show,
             spectra=spectra,
         )
-    held = ", held by the table" if "state" in table.planes else ""
-    print(f"states: {len(result.differences)}, reachable{held}, none of them a knot")
+    scene = isinstance(table.axes, LookAxes) and table.axes.bounded
+    held = ", held by the table" if scene or "state" in table.planes else ""
+    most = result.states[:, 4].max()
+    blood = f", of 1 to {most:.2g} times the blood" if most > 1.0 else ""
+    print(f"states: {len(result.differences)}, reachable{held}{blood}, none of them a knot")
     print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
     print(f"largest: {result.differences.max():.3f}")
+    if result.slanting is not None:
+        slanting = f"{result.slanting.mean():.3f}, largest {result.slanting.max():.3f}"
+        print(f"in light from 45 degrees: mean {slanting}")
+    if result.bands is not None:
+        print(
+            f"rms error of the reflectance in single bands: {np.sqrt(np.mean(result.bands**2)):.4f}"
+        )
     if result.noise is not None:
         print(f"mean CIEDE2000 that Monte Carlo noise alone gives: {result.noise.mean():.3f}")
         print(

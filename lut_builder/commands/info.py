@@ -6,9 +6,15 @@ from pathlib import Path
 import numpy as np
 
 from hylios.readers.text import shown
-from hylios.table import SkinTable, read_table
+from hylios.table import LOOK_AXES, LookAxes, SkinTable, StateAxes, read_table
 
-ERRORS = ("colour_error", "profile_error", "profile_effective_samples")
+ERRORS = (
+    "colour_error",
+    "near_share_error",
+    "far_width_error",
+    "profile_error",
+    "profile_effective_samples",
+)
 """Planes that say how good the others are."""
 
 
@@ -44,11 +50,24 @@ def described(table: SkinTable) -> list[str]:
             lines.append(
                 f"{name}: {values.min():.3g} to {values.max():.3g}, mean {values.mean():.3g}"
             )
-    directions = zip(table.axes.basis.T, table.axes.knots, strict=True)
-    for axis, (direction, knots) in enumerate(directions, start=1):
-        listed = np.array2string(np.round(knots, 3), max_line_width=10**6)
-        lines.append(
-            f"axis {axis}: {np.round(direction, 3)} in ln of (basale, spinosum, granulosum, "
-            f"thickness) to the untanned, knots {listed}"
-        )
-    return lines
+    return [*lines, *_described_axes(table.axes)]
+
+
+def _described_axes(axes: LookAxes | StateAxes) -> list[str]:
+    """What a table's axes are, line by line."""
+    listed = [np.array2string(np.round(knots, 3), max_line_width=10**6) for knots in axes.knots]
+    if isinstance(axes, LookAxes):
+        direction = np.round(axes.direction, 3)
+        return [
+            f"spread: {direction} in ln of (basale, spinosum, granulosum) to the untanned",
+            *(
+                f"axis {number}: {name}, in ln to the untanned, knots {knots}"
+                for number, (name, knots) in enumerate(zip(LOOK_AXES, listed, strict=True), start=1)
+            ),
+            *(["the table says nothing beyond these knots"] if axes.bounded else []),
+        ]
+    return [
+        f"axis {number}: {np.round(direction, 3)} in ln of (basale, spinosum, granulosum, "
+        f"thickness) to the untanned, knots {knots}"
+        for number, (direction, knots) in enumerate(zip(axes.basis.T, listed, strict=True), start=1)
+    ]

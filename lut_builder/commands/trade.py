@@ -22,8 +22,7 @@ from lut_builder.commands.limits import (
     point_within,
 )
 from lut_builder.commands.progress import progress
-from lut_builder.settings import PRESETS
-from lut_builder.trade.pareto import presets, worst
+from lut_builder.trade.pareto import worst
 from lut_builder.trade.points import Point, described, usable_cores, write_points, write_rows
 
 
@@ -98,9 +97,6 @@ def trade(arguments: argparse.Namespace) -> None:
     draw(together, picture, "; ".join(comments[:3]))
     print(f"wrote {', '.join(map(str, targets))}")
     _show(arguments, together.front)
-    for name, point in presets(together.front).items():
-        if point.settings != PRESETS[name]:
-            print(f"note: by this front the preset {name} would be {described(point)}")
 
 
 def _beginning(stack: ExitStack, label: str) -> Callable[[float], Callable[[float], object]]:

@@ -30,8 +30,8 @@ class Extent:
     states, profile_states, broad_states, walked_states : int
         Numbers of reachable states between the knots: for colours, profiles, principal
         components and random walks.
-    knots, wavelengths, nodes, profile_errors, profile_wavelengths : tuples
-        Values of `Settings`; profile errors descend.
+    knots, wavelengths, nodes, profile_errors, profile_wavelengths, design_states : tuples
+        Values of `Settings`, the last of its `profile_states`; profile errors descend.
     rays : tuple of int
         Of random walks, for each wavelength.
     fine_nodes, fine_profile_wavelengths : int
@@ -45,32 +45,28 @@ class Extent:
         Of what is short.
     """
 
-    states: int = 200
-    profile_states: int = 24
-    broad_states: int = 60
+    states: int = 100
+    profile_states: int = 16
+    broad_states: int = 30
     walked_states: int = 3
     knots: tuple[tuple[int, ...], ...] = (
-        (5,),
-        (9,),
-        (7, 2),
-        (9, 3),
-        (7, 3, 2),
-        (11, 3, 2),
-        (9, 3, 3, 2),
-        (11, 3, 3, 2),
-        (13, 4, 4, 2),
+        (9, 2, 2, 3),
+        (12, 2, 3, 3),
+        (16, 3, 4, 4),
+        (20, 3, 5, 5),
     )
-    wavelengths: tuple[int, ...] = (4, 6, 8, 12, 16)
-    nodes: tuple[int, ...] = (10, 14, 18, NODES, 30)
-    profile_errors: tuple[float, ...] = (0.05, 0.02, 0.01, 0.006, 0.004, 0.003, 0.002)
+    wavelengths: tuple[int, ...] = (4, 8, 12)
+    nodes: tuple[int, ...] = (14, 18, NODES)
+    profile_errors: tuple[float, ...] = (0.05, 0.01, 0.005)
     profile_wavelengths: tuple[int, ...] = (4, 8)
+    design_states: tuple[int, ...] = (12, 40, 80)
     rays: tuple[int, ...] = (1_000, 10_000, 100_000)
-    fine_nodes: int = 36
+    fine_nodes: int = 30
     fine_profile_wavelengths: int = 12
-    fine_profile_error: float = 0.002
-    longest: float = 12.0
-    file_knots: tuple[int, ...] = (11, 3, 3, 2)
-    repeats: int = 3
+    fine_profile_error: float = 0.006
+    longest: float = 6.0
+    file_knots: tuple[int, ...] = (16, 3, 4, 4)
+    repeats: int = 2
 
 
 FULL = Extent()
@@ -79,17 +75,18 @@ QUICK = Extent(
     profile_states=4,
     broad_states=12,
     walked_states=1,
-    knots=((3,), (5, 2)),
+    knots=((4, 2, 2, 2), (6, 2, 3, 2)),
     wavelengths=(4, 8),
     nodes=(14, NODES),
     profile_errors=(0.1, 0.05),
     profile_wavelengths=(4,),
+    design_states=(10,),
     rays=(1_000,),
     fine_nodes=30,
     fine_profile_wavelengths=6,
     fine_profile_error=0.02,
     longest=10.0,
-    file_knots=(5, 2),
+    file_knots=(5, 2, 2, 2),
     repeats=1,
 )
 """To see that it works; what it says of a table is worth little."""

@@ -157,14 +157,14 @@ def _draw_profiles(place: Axes, parts: list[Row]) -> None:
             MARKS[number % len(MARKS)],
             ms=3.5,
             color=look["color"],
-            label=f"knots {knots}" if first else None,
+            label=knots if first else None,
         )
     place.set(
         xscale="log",
         yscale="log",
         xlabel="seconds of one core for the profile",
-        ylabel="rms error of the share of light within a distance",
-        title="Profiles by knots and error aimed at (dotted: 4 wavelengths;\nwithout mark: "
+        ylabel="rms error of the light beyond an edge",
+        title="Profiles by states and error aimed at (dotted: 4 wavelengths;\nwithout mark: "
         "extrapolated)",
     )
 

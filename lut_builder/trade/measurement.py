@@ -93,10 +93,10 @@ def measure(
     fine: FineProfiles = measured["profile fine"]
     profile = {}
     for count in extent.profile_wavelengths:
-        runs = {knots: measured["profile", knots, count] for knots in extent.knots}
-        noise = noise_share(list(runs.values()), fine.widths)
-        for knots, walked in runs.items():
-            profile[knots, count] = completed(walked, fine, extent.profile_errors, noise)
+        runs = {number: measured["profile", number, count] for number in extent.design_states}
+        noise = noise_share(list(runs.values()), fine.spreads)
+        for number, walked in runs.items():
+            profile[number, count] = completed(walked, fine, extent.profile_errors, noise)
     return Trade(
         points=_points(extent, measured, colour, profile),
         parts=[
@@ -143,12 +143,11 @@ def _points(
         cost: Cost = measured["cost", nodes]
         solved = cost.seconds(int(np.prod(knots)), count + len(BANDS_NM))
 
-        def point(profiled: ProfileError | None, few: int = 8, **made) -> Point:
+        def point(profiled: ProfileError | None, **made) -> Point:
             start = measured["start" if profiled else "start without profile"]
             return Point(
                 Settings(
                     profile_error=profiled.error if profiled else 0.0,
-                    profile_wavelengths=few,
                     **made,
                 ),
                 shared_seconds=solved + (profiled.shared if profiled else 0.0),  # noqa: B023
@@ -169,6 +168,7 @@ def _points(
             "nodes": nodes,
         }
         points.append(point(None, **made))
-        for few in extent.profile_wavelengths:
-            points += [point(error, few, **made) for error in profile[knots, few]]
+        for (number, few), errors in profile.items():
+            made |= {"profile_states": number, "profile_wavelengths": few}
+            points += [point(error, **made) for error in errors]
     return points

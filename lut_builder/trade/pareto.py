@@ -5,20 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from hylios.errors import InputError, require_range
-from lut_builder.trade.points import NUMBERS, Point
+from lut_builder.trade.points import NUMBERS, Point, named
 
 LEAST_GAIN = 0.02
 """Share by which a point of the front has less error than the one before it."""
-
-PRESET_LIMITS = {
-    "preview": (0.6, 0.5, 1.5),
-    "standard": (30.0, 0.1, 0.3),
-    "reference": (600.0, 0.1, 0.3),
-}
-"""Limits of presets: seconds on two cores besides the start, and mean and largest CIEDE2000.
-
-What presets may take is 3, 60 and 1200 s with the start; but for the preview, most of which is the
-start, half of it is left to slower machines."""
 
 
 def nondominated(seconds: np.ndarray, errors: np.ndarray, gain: float = LEAST_GAIN) -> np.ndarray:
@@ -56,13 +46,18 @@ def worst(skins: Sequence[Sequence[Point]]) -> list[Point]:
 
 
 def front(points: Sequence[Point]) -> list[Point]:
-    """The front of tables with a profile, then that of tables without, each the fastest first."""
+    """The front of tables with a profile, then that of tables without, each the fastest first.
+
+    The presets stand among them even where others beat them by little.
+    """
     kept = []
     for has_profile in (True, False):
         some = [point for point in points if point.settings.has_profile is has_profile]
         seconds = np.array([point.seconds() for point in some])
         errors = np.array([point.error for point in some])
-        kept += [some[number] for number in nondominated(seconds, errors)]
+        ahead = {*nondominated(seconds, errors)}
+        ahead |= {number for number, point in enumerate(some) if named(point)}
+        kept += [some[number] for number in sorted(ahead, key=seconds.__getitem__)]
     return kept
 
 
@@ -102,27 +97,6 @@ def best(points: Sequence[Point], max_seconds: float, *, cores: int, profile: bo
             f"time is {limit:g} s; the fastest table measured takes {least:.2g} s on {cores} cores."
         )
     return min(quick, key=lambda point: point.error)
-
-
-def presets(points: Sequence[Point]) -> dict[str, Point]:
-    """The points that the presets would be by a front: the best within `PRESET_LIMITS`.
-
-    A preset within whose limits there is no point is left out.
-    """
-    start = max(point.start_seconds for point in points)
-    by_name = {}
-    for name, (seconds, mean, largest) in PRESET_LIMITS.items():
-        within = [
-            point
-            for point in points
-            if point.settings.has_profile
-            and point.seconds() <= start + seconds
-            and point.delta_e_mean <= mean
-            and point.delta_e_largest <= largest
-        ]
-        if within:
-            by_name[name] = min(within, key=lambda point: point.error)
-    return by_name
 
 
 def _alike(points: Sequence[Point], profile: bool) -> list[Point]:

@@ -94,11 +94,11 @@ def solver_parts(extent: Extent, measured: dict[Any, Any]) -> list[Row]:
 
 
 def profile_parts(profile: dict[Any, list[ProfileError]], misfits: np.ndarray) -> list[Row]:
-    """Profiles by knots, wavelengths and error aimed at, and what their shape misses."""
+    """Profiles by states, wavelengths and error aimed at, and what their shape misses."""
     unit = "share of light"
     rows = [
         _row(
-            f"profile, {' '.join(map(str, knots))}, {count} wavelengths",
+            f"profile, {number} states, {count} wavelengths",
             error.error,
             error.shared + error.serial,
             error.rms,
@@ -106,10 +106,10 @@ def profile_parts(profile: dict[Any, list[ProfileError]], misfits: np.ndarray) -
             unit,
             "" if error.walked else "extrapolated",
         )
-        for (knots, count), errors in profile.items()
+        for (number, count), errors in profile.items()
         for error in errors
     ]
-    note = "Burley's profile against the walked one: no setting mends it"
+    note = "near share and far width of the walked profile itself: no setting mends it"
     return [*rows, _row("profile shape", "", None, *_ends(misfits), unit, note)]
 
 

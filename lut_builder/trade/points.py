@@ -38,8 +38,8 @@ class Point:
     band_rmse : float
         Of the reflectance in the single bands.
     profile_rms, profile_largest : float
-        Of the difference of the share of light that leaves within a distance, at the distance
-        where it is largest; 0 without a profile.
+        Of the difference of the light beyond the edge of a lit half plane, as a share, at the
+        distance of .1 mm or more where it is largest; 0 without a profile.
     profile_lightness : float
         The most that such a share missing changes the lightness L* of what is lit from one side.
     """
@@ -81,10 +81,11 @@ def described(point: Point, cores: int = CORES) -> str:
     text += f", {made.colour_wavelengths} wavelengths, {made.nodes} nodes"
     if made.has_profile:
         text += f", profile {made.profile_error:g} at {made.profile_wavelengths} wavelengths"
+        text += f" of {made.profile_states} states"
     text += f": {point.seconds(cores):.1f} s on {cores} core{'s' if cores > 1 else ''}"
     text += f", CIEDE2000 mean {point.delta_e_mean:.3f}, largest {point.delta_e_largest:.3f}"
     if made.has_profile:
-        text += f"; share within a distance {point.profile_largest:.4f} at most off"
+        text += f"; light beyond an edge {point.profile_largest:.4f} at most off"
         text += f", which is {point.profile_lightness:.2f} of L*"
     name = named(point)
     return f"{text} ({name})" if name else text
@@ -97,6 +98,7 @@ TRADED = (
     "nodes",
     "profile_error",
     "profile_wavelengths",
+    "profile_states",
 )
 """Settings that a front's file tells; the others are the defaults."""
 
@@ -182,6 +184,7 @@ def _settings(row: dict[str, str]) -> Settings:
         nodes=int(row["nodes"]),
         profile_error=float(row["profile_error"]),
         profile_wavelengths=int(row["profile_wavelengths"]),
+        profile_states=int(row["profile_states"]),
     )
 
 

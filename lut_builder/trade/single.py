@@ -17,17 +17,19 @@ from typing import Any
 import numpy as np
 
 from hylios.adding import spectra
-from hylios.burley import burley_share_within
 from hylios.lab.colour import difference, lab, rec709_weights
+from hylios.near_far import edge_spread, model_edge_spread, near_share_and_far_width
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
+from hylios.skin.skin import MOST_BLOOD
 from hylios.transport.shared_profiles import LEAST_LIGHT, skin_profiles
 from hylios.transport.simulate import DISTANCE_EDGES
 from hylios.transport.simulate import spectrum as walked
-from lut_builder.assemble import assembled, channel_widths, requested
+from lut_builder.assemble import assembled, requested
 from lut_builder.exr_writer import write_table
-from lut_builder.reachable import choose_axes, reachable_states
-from lut_builder.request import ANGLE, STATES_TOGETHER, computed, pieces
+from lut_builder.near_far_fit import DISTANCES
+from lut_builder.reachable import reachable_states, untanned_state
+from lut_builder.request import ANGLE, ANGLES, STATES_TOGETHER, WATER, computed, pieces
 from lut_builder.settings import Settings
 
 UNSEEN = np.array([401.7, 433.1, 468.3, 507.9, 541.7, 583.3, 611.9, 653.1])
@@ -58,15 +60,15 @@ class Run:
     error : float
         That was aimed at.
     shared, serial : float
-        Seconds that cores share, and that one spends on fitting widths.
-    widths : (N, 3) array
-        In mm, looked up in the table at states between its knots.
+        Seconds that cores share, and that one spends on the fit.
+    spreads : (N, 3, X) array
+        Edge spreads at `DISTANCES`, by what the table tells of states between its knots.
     """
 
     error: float
     shared: float
     serial: float
-    widths: np.ndarray
+    spreads: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -75,25 +77,27 @@ class FineProfiles:
 
     Attributes
     ----------
-    widths : (N, 3) array
-        In mm.
+    spreads : (N, 3, X) array
+        Edge spreads at `DISTANCES`, by the near share and far width fitted to the walked ones.
     light : (N, 3) array
         Of the channel, linear Rec.709, that leaves after having been inside.
     misfits : (N, 3) array
-        Largest difference of the share of light within a distance, between the walked profile and
-        Burley's of that width: no table that holds widths can do better.
+        Largest difference between them and the walked ones: no table that holds near shares and
+        far widths can do better.
     """
 
-    widths: np.ndarray
+    spreads: np.ndarray
     light: np.ndarray
     misfits: np.ndarray
 
 
 def between_knots(skin: Skin, count: int, seed: int) -> np.ndarray:
-    """Tanned states (N, 4) of schedules other than those that chose the axes."""
+    """Tanned states (N, 5) of schedules other than those that chose the axes, of any blood."""
     states = reachable_states(skin, 100, seed)
-    tanned = np.abs(np.log(states / choose_axes(skin, (1,)).untanned)).max(axis=1) > 1e-3
-    return np.random.default_rng(seed).choice(states[tanned], count, replace=False)
+    tanned = np.abs(np.log(states / untanned_state(skin))).max(axis=1) > 1e-3
+    random = np.random.default_rng(seed)
+    tans = random.choice(states[tanned], count, replace=False)
+    return np.column_stack([tans, np.exp(random.uniform(0.0, np.log(MOST_BLOOD), count))])
 
 
 def timed(work: Callable[[], Any]) -> tuple[float, Any]:
@@ -112,8 +116,15 @@ def reflectances(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes:
     return np.concatenate(parts)
 
 
+def table_light(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int) -> None:
+    """Solve as a table needs it: at all its angles, and wet."""
+    specimens = [skin.at(state) for state in states]
+    spectra(specimens, wavelengths, angle=ANGLES, nodes=nodes)
+    spectra(specimens, wavelengths, angle=ANGLE, nodes=nodes, film=WATER)
+
+
 def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:
-    """What a reflectance costs with so many nodes.
+    """What a state costs at a wavelength with so many nodes.
 
     Of some runs the fastest counts: other work can only slow one down.
     """
@@ -121,8 +132,8 @@ def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:
     firsts, later = [], []
     for repeat in range(repeats):
         unseen = UNSEEN + 0.1 * repeat
-        first, _ = timed(lambda at=unseen: reflectances(skin, states[:1], at, nodes))
-        rest, _ = timed(lambda at=unseen: reflectances(skin, states, at, nodes))
+        first, _ = timed(lambda at=unseen: table_light(skin, states[:1], at, nodes))
+        rest, _ = timed(lambda at=unseen: table_light(skin, states, at, nodes))
         firsts.append(first / UNSEEN.size)
         later.append(rest / UNSEEN.size / len(states))
     return Cost(min(later), max(min(firsts) - min(later), 0.0))
@@ -175,23 +186,14 @@ def fine_profiles(
         "cw,wsb->scb", few.weights, np.array([profile.light for profile in profiles])
     )
     light = np.maximum(channels.sum(axis=2), LEAST_LIGHT)
-    widths = channel_widths(channels)
-    within = np.cumsum(channels, axis=2)[..., :-1] / light[..., None]
-    seen = burley_share_within(DISTANCE_EDGES[1:], widths[..., None])
-    return FineProfiles(widths, light, np.abs(within - seen).max(axis=2))
+    spreads = model_edge_spread(DISTANCES, *near_share_and_far_width(DISTANCE_EDGES, channels))
+    misfits = share_errors(spreads, edge_spread(DISTANCE_EDGES, channels, DISTANCES))
+    return FineProfiles(spreads, light, misfits)
 
 
-def share_errors(widths: np.ndarray, fine: np.ndarray) -> np.ndarray:
-    """Largest difference of the shares of light within a distance, of Burley profiles.
-
-    Parameters
-    ----------
-    widths, fine : (...) arrays
-    """
-    distances = np.geomspace(0.05, 20.0, 200).reshape(-1, *(1,) * np.ndim(widths))
-    seen = burley_share_within(distances, 1.0)
-    moved = burley_share_within(distances * np.divide(fine, widths), 1.0)
-    return np.abs(moved - seen).max(axis=0)
+def share_errors(spreads: np.ndarray, fine: np.ndarray) -> np.ndarray:
+    """Largest difference of edge spreads (..., X) and (..., X) over the distance, (...)."""
+    return np.abs(spreads - fine).max(axis=-1)
 
 
 def lightness_lost(light: np.ndarray, shares: np.ndarray) -> np.ndarray:
@@ -230,7 +232,9 @@ def profile_runs(
             )
             shared += seconds if piece.kind == "profile" else 0.0
         serial, table = timed(lambda of=request, by=results: assembled(of, by))
-        runs.append(Run(error, shared, serial, table.plane("profile_width", states)))
+        told = table.lookup(states, ("near_share", "far_width"))
+        spreads = model_edge_spread(DISTANCES, told["near_share"], told["far_width"])
+        runs.append(Run(error, shared, serial, spreads))
     return runs
 
 

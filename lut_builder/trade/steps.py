@@ -52,7 +52,7 @@ def planned(skin: Skin, extent: Extent, states: np.ndarray, seed: int) -> dict[A
     for nodes in {*extent.nodes, NODES}:
         steps["nodes", nodes] = light(states, few, nodes)
     for knots in extent.knots:
-        knot_states = choose_axes(skin, knots).knot_states().reshape(-1, 4)
+        knot_states = choose_axes(skin, knots).knot_states().reshape(-1, 5)
         steps["knots", knots] = light(knot_states, few, NODES)
     base = skin_quadrature(BASE_WAVELENGTHS).wavelengths
     some = states[: extent.walked_states]
@@ -65,10 +65,11 @@ def planned(skin: Skin, extent: Extent, states: np.ndarray, seed: int) -> dict[A
         fine[0] * (0.2 + 1e-6 * len(seen) / fine[1] ** 2 / 4.0),
         lambda: fine_profiles(skin, seen, *fine, seed),
     )
-    for knots, count in product(extent.knots, extent.profile_wavelengths):
-        table = Settings(knots, 4, (), extent.profile_errors[0], count, nodes=10)
-        steps["profile", knots, count] = (
-            2.0 + 2.0 * extent.longest * min(1.0, table.states / 400.0),
+    knots = extent.file_knots
+    for number, count in product(extent.design_states, extent.profile_wavelengths):
+        table = Settings(knots, 4, (), extent.profile_errors[0], count, number, nodes=10)
+        steps["profile", number, count] = (
+            2.0 + 2.0 * extent.longest * min(1.0, number / 40.0),
             lambda made=table: profile_runs(
                 skin, made, extent.profile_errors, seen, extent.longest, seed
             ),

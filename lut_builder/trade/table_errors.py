@@ -83,7 +83,7 @@ def noise_share(runs: Sequence[Sequence[Run]], fine: np.ndarray) -> float:
     """
     falls = []
     for some in runs:
-        squares = [root_mean_square(share_errors(run.widths, fine)) ** 2 for run in some]
+        squares = [root_mean_square(share_errors(run.spreads, fine)) ** 2 for run in some]
         aimed_at = [run.error**2 for run in some]
         falls.append((squares[0] - squares[-1]) / (aimed_at[0] - aimed_at[-1]))
     return max(float(np.median(falls)), 0.0)
@@ -102,7 +102,7 @@ def completed(
     Parameters
     ----------
     fine : FineProfiles
-        Of the states at which the runs' widths are.
+        Of the states at which the runs' spreads are.
     errors : sequence of float
         Descending; those of the runs come first.
     """
@@ -126,7 +126,7 @@ def completed(
 
 
 def _profile_error(run: Run, fine: FineProfiles) -> ProfileError:
-    shares = share_errors(run.widths, fine.widths)
+    shares = share_errors(run.spreads, fine.spreads)
     seen = lightness_lost(fine.light, shares)
     return ProfileError(
         run.error,

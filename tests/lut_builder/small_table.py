@@ -5,4 +5,10 @@ from hylios.skin.specimen import SPECIMENS
 from lut_builder.settings import Settings
 
 SKIN = Skin.of(SPECIMENS["S3"], "intermediate", 2.89, 1.7)
-SMALL = Settings(knots=(3, 2), colour_wavelengths=5, profile_error=0.02, profile_wavelengths=4)
+SMALL = Settings(
+    knots=(3, 2, 2, 2),
+    colour_wavelengths=5,
+    profile_error=0.04,
+    profile_wavelengths=4,
+    profile_states=24,
+)

@@ -22,7 +22,7 @@ ALLOWED = {
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "lut_builder/jobs/cluster.py": {"distributed", "hylios"},
-    "lut_builder/scene_axes.py": {"numpy", "scipy", "hylios"},
+    "lut_builder/near_far_fit.py": {"numpy", "scipy", "hylios"},
     "lut_builder/trade/figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "hylios"},

@@ -201,7 +201,7 @@ def test_a_name_that_is_not_utf_8_is_written_and_told(tmp_path, capsys):
         )
         == 0
     )
-    assert read_table(path).axes.shape == (1,)
+    assert read_table(path).axes.shape == (1, 1, 1, 1)
     assert os.listdir(tmp_path) == [path.name]
 
 

@@ -8,14 +8,14 @@ meets the surface again, any number of times.
 
 import numpy as np
 
-from hylios.adding.directions import Directions
+from hylios.adding.directions import Directions, node_counts
 from hylios.adding.surface import LEAK, TURNS, fresnel, scattered
 
 
 def through_film(
     made: Directions,
     segments: int,
-    film: int,
+    film: float,
     above: float,
     roughness: float,
     angles: np.ndarray,
@@ -24,10 +24,10 @@ def through_film(
 
     Parameters
     ----------
-    segments, film : int
-        Of the uppermost layer, with N nodes, and of the film.
-    above : float
-        Refractive index outside.
+    made, segments
+        Directions in the skin, with N nodes in its uppermost layer, which has those segments.
+    film, above : float
+        Refractive indices of the film and outside.
     angles : (A,) array
         Of incidence, in radians.
 
@@ -39,21 +39,34 @@ def through_film(
         Share of light from outside that the film and the surface reflect, and where what enters
         the skin goes.
     """
-    index = np.sqrt(made.bounds[film])
-    inner, _ = made.cosines(segments)
-    within, _ = made.cosines(film)
-    turns = max(TURNS, *(made.counts[last - 1] - 1 for last in (segments, film)))
-    mirrored, out = scattered(made, inner, segments, film, roughness, turns)
-    again, into = scattered(made, within, film, segments, roughness, turns)
-    face, _ = fresnel(within, index, above)
+    inside, within = (made, segments), _directions(made, segments, film, above)
+    up, _ = made.cosines(segments)
+    in_film, _ = within[0].cosines(within[1])
+    turns = max(TURNS, made.counts[segments - 1] - 1, within[0].counts[-1] - 1)
+    mirrored, out = scattered(up, inside, within, roughness, turns)
+    again, into = scattered(in_film, within, inside, roughness, turns)
+    face, _ = fresnel(in_film, film, above)
     # light that goes up in the film, summed over all times that face and surface send it back
     upwards = np.linalg.inv((1.0 + LEAK) * np.eye(face.size) - face[:, None] * again)
     let_out, back = upwards @ (1.0 - face), upwards @ (face[:, None] * into)
-    first, beyond = fresnel(np.cos(angles), above, index)
-    reflected, entering = scattered(made, beyond, film, segments, roughness, turns)
+    first, beyond = fresnel(np.cos(angles), above, film)
+    reflected, entering = scattered(beyond, within, inside, roughness, turns)
     return (
         mirrored + out @ back,
         out @ let_out,
         first + (1.0 - first) * (reflected @ let_out),
         (1.0 - first)[:, None] * (entering + reflected @ back),
     )
+
+
+def _directions(
+    made: Directions, segments: int, film: float, above: float
+) -> tuple[Directions, int]:
+    """Directions of light in the film, cut where its face reflects totally.
+
+    It has nodes of its own: in the skin, what the film lets out is smooth where it ends, for the
+    rough surface turns light by more than that.
+    """
+    indices = sorted({film, above})
+    bounds = np.array([0.0, *indices]) ** 2
+    return Directions(bounds, node_counts(bounds, made.within(segments))), indices.index(film) + 1

@@ -20,14 +20,14 @@ from hylios.adding.scattering import (
     melanosome_moments,
     rayleigh_moments,
 )
-from hylios.adding.surface import from_inside, from_outside
+from hylios.adding.surface import FLAT, from_inside, from_outside
 from hylios.errors import InputError, require_range
 from hylios.tissue import Layer, Stack
 
 FILM_NODES = 0.2
-"""Share of nodes that are added where a film's upper face begins to reflect totally: light that the
-rough surface lets through to it falls off steeply there, within the angles that its normals turn
-light by."""
+"""Share of nodes that are added for a film, among directions just beyond those that get out: light
+that the rough surface lets through to the film's face falls off steeply there, within the angles
+that its normals turn light by. It makes the skin without a film more accurate too."""
 
 KEPT = 4096
 """Optics kept, about 20 kB each at the default number of nodes."""
@@ -40,7 +40,7 @@ class Pattern:
     Attributes
     ----------
     ranks : tuple of int
-        Order of the refractive indices above, of the layers, and below, among all.
+        Order of the refractive indices above, of the layers, and below, among all cuts.
     counts : tuple of int
         Nodes between one index and the next (`Directions`).
     kinds : tuple of tuple of str
@@ -60,7 +60,7 @@ class OpticalConstants:
     """The numbers from which, with its pattern, the optics of a stack follow.
 
     `indices` are those above, of the layers, and below; where inner faces do not reflect, light
-    finds the uppermost layer's in all. `film` is that of a film on the surface, if there is one.
+    finds the uppermost layer's in all. `films` are those of films on the surface; None is no film.
     """
 
     roughness: float
@@ -68,12 +68,17 @@ class OpticalConstants:
     exponential: bool
     indices: tuple[float, ...]
     anisotropies: tuple[float, ...]
-    film: float | None = None
+    films: tuple[float | None, ...] = (None,)
 
     @property
-    def all_indices(self) -> tuple[float, ...]:
-        """Refractive indices of all that light goes through, ascending."""
-        return _ascending(self.indices, self.film)
+    def cuts(self) -> tuple[float, ...]:
+        """Refractive indices at which directions are cut, ascending.
+
+        Those of films only on a flat surface: a rough one blurs what happens there, and so they
+        need no nodes of their own.
+        """
+        flat = [film for film in self.films if film is not None and self.roughness <= FLAT]
+        return tuple(sorted({*self.indices, *flat}))
 
 
 @dataclass(frozen=True)
@@ -87,9 +92,10 @@ class Optics:
     media : dict of int to Medium
         Of the layers, by number, that are one.
     mirrored, let_out
-        What the surface does to light from inside (`surface.from_inside`, `film.through_film`).
+        What the surface does to light from inside (`surface.from_inside`, `film.through_film`),
+        with each of the films.
     surface, entering
-        What it does to light from outside (`surface.from_outside`, likewise).
+        What it does to light from outside (`surface.from_outside`), likewise.
     """
 
     cosines: dict[int, tuple[np.ndarray, np.ndarray]]
@@ -100,11 +106,20 @@ class Optics:
     entering: np.ndarray
 
 
-def optical_constants(stack: Stack, film: float | None = None) -> OpticalConstants:
-    """The optical constants of a stack, with a film of a refractive index on it or without."""
+def optical_constants(stack: Stack, films: tuple[float | None, ...] = (None,)) -> OpticalConstants:
+    """The optical constants of a stack, with films of these refractive indices on it in turn.
+
+    Raises
+    ------
+    InputError
+        If a film's lies outside 1 to that of the uppermost layer.
+    """
     inner = tuple(layer.refractive_index for layer in stack.layers)
     if stack.readings["inner_fresnel"] == "off":
         inner = inner[:1] * len(inner)
+    for film in films:
+        if film is not None:
+            require_range("refractive index of the film", film, 1.0, inner[0])
     below = inner[-1] if stack.lambertian_floor else stack.index_below
     return OpticalConstants(
         roughness=stack.roughness,
@@ -112,7 +127,7 @@ def optical_constants(stack: Stack, film: float | None = None) -> OpticalConstan
         exponential=stack.readings["melanosome_scattering"] == "exponential",
         indices=(stack.index_above, *inner, below),
         anisotropies=tuple(layer.anisotropy for layer in stack.layers),
-        film=None if film == stack.index_above else film,
+        films=tuple(None if film == stack.index_above else film for film in films),
     )
 
 
@@ -125,7 +140,8 @@ def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
         If a layer's thickness is not finite, or fibres that scatter once per traversal share a
         layer with other scatterers.
     """
-    ranks, counts = _ranks_and_counts(constants.indices, constants.film, nodes)
+    cuts, filmed = constants.cuts, any(constants.films)
+    ranks, counts = _ranks_and_counts(constants.indices, cuts, filmed, nodes)
     return Pattern(
         ranks=ranks,
         counts=counts,
@@ -134,20 +150,15 @@ def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
     )
 
 
-def _ascending(indices: tuple[float, ...], film: float | None) -> tuple[float, ...]:
-    return tuple(sorted({*indices, *(() if film is None else (film,))}))
-
-
 @lru_cache(maxsize=KEPT)
 def _ranks_and_counts(
-    indices: tuple[float, ...], film: float | None, nodes: int
+    indices: tuple[float, ...], cuts: tuple[float, ...], filmed: bool, nodes: int
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """`Pattern.ranks` and `Pattern.counts` of a stack with these refractive indices."""
-    values = _ascending(indices, film)
-    ranks = tuple(values.index(index) for index in indices)
-    counts = list(node_counts(np.array([0.0, *values]) ** 2, nodes))
-    if film is not None:
-        counts[ranks[0] + 1] += round(FILM_NODES * nodes)
+    ranks = tuple(cuts.index(index) for index in indices)
+    counts = list(node_counts(np.array([0.0, *cuts]) ** 2, nodes))
+    if filmed:
+        counts[min(ranks[0] + 1, len(counts) - 1)] += round(FILM_NODES * nodes)
     return ranks, tuple(counts)
 
 
@@ -178,17 +189,11 @@ def is_medium(kinds: tuple[str, ...]) -> bool:
 @lru_cache(maxsize=KEPT)
 def optics(constants: OpticalConstants, shared: Pattern, angles: tuple[float, ...]) -> Optics:
     """Optics of stacks with these constants and pattern, for angles of incidence in radians."""
-    values = constants.all_indices
-    made = Directions(np.array([0.0, *values]) ** 2, shared.counts)
-    above, top, roughness = constants.indices[0], shared.ranks[1] + 1, constants.roughness
-    if constants.film is None:
-        mirrored, let_out = from_inside(made, top, above, roughness)
-        surface, entering = from_outside(made, top, above, roughness, np.array(angles))
-    else:
-        film = values.index(constants.film) + 1
-        mirrored, let_out, surface, entering = through_film(
-            made, top, film, above, roughness, np.array(angles)
-        )
+    made = Directions(np.array([0.0, *constants.cuts]) ** 2, shared.counts)
+    surfaces = [_surface(made, constants, shared, film, angles) for film in constants.films]
+    mirrored, let_out, surface, entering = (
+        np.stack(alike) for alike in zip(*surfaces, strict=True)
+    )
     return Optics(
         cosines={rank: made.cosines(rank + 1) for rank in set(shared.ranks[1:-1])},
         media=_media(made, constants, shared),
@@ -197,6 +202,22 @@ def optics(constants: OpticalConstants, shared: Pattern, angles: tuple[float, ..
         surface=surface,
         entering=entering,
     )
+
+
+def _surface(
+    made: Directions,
+    constants: OpticalConstants,
+    shared: Pattern,
+    film: float | None,
+    angles: tuple[float, ...],
+):
+    """`Optics.mirrored` to `Optics.entering` with one film, or with none."""
+    above, top, roughness = constants.indices[0], shared.ranks[1] + 1, constants.roughness
+    if film is not None:
+        return through_film(made, top, film, above, roughness, np.array(angles))
+    mirrored, let_out = from_inside(made, top, above, roughness)
+    surface, entering = from_outside(made, top, above, roughness, np.array(angles))
+    return mirrored, let_out, surface, entering
 
 
 def _media(made: Directions, constants: OpticalConstants, shared: Pattern) -> dict[int, Medium]:

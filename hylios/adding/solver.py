@@ -33,13 +33,17 @@ TOGETHER = 64
 """Stacks solved at once, for their matrices to stay in a processor's cache."""
 
 
+Film = float | None | Sequence[float | None]
+"""Refractive index of a film on the surface, None for none; or several, each in turn."""
+
+
 @dataclass(frozen=True)
 class Reflectance:
     """Directional-hemispherical reflectance of S stacks.
 
     Attributes
     ----------
-    surface, subsurface, transmittance : (S,) arrays, or (A, S) for several angles
+    surface, subsurface, transmittance : (S,) arrays, (A, S) for several angles, (F, ...) for films
         Share of the light that the surface reflects, that leaves through it after having been
         inside, and that leaves below.
     """
@@ -80,7 +84,7 @@ def solve(
     angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
     *,
-    film: float | None = None,
+    film: Film = None,
 ) -> Reflectance:
     """Reflectance and absorptance of stacks, without random numbers.
 
@@ -98,9 +102,10 @@ def solve(
         Of incidence, in degrees, 0 to 89.99; several take little longer than one.
     nodes : int
         Directions, 6 to 200.
-    film : float, optional
-        Refractive index of a film on the surface (`hylios.adding.film`), 1 to 2: 1.33 for water,
-        1.4 to 1.47 for oil or sunscreen. What it reflects is the surface's. None by default.
+    film : float or sequence of float or None, optional
+        Refractive index of a film on the surface (`hylios.adding.film`), 1 to that of the uppermost
+        layer: 1.33 for water, 1.4 to 1.47 for oil or sunscreen. What it reflects is the surface's.
+        Several take little longer than one, and None among them is no film, as by default.
 
     Raises
     ------
@@ -115,31 +120,39 @@ def solve(
         raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
     for degrees in angles:
         require_range("angle of incidence", float(degrees), 0.0, 89.99, "degrees")
-    if film is not None:
-        film = float(require_range("refractive index of the film", film, 1.0, 2.0))
+    films = _films(film)
     radians = tuple(np.radians(angles).tolist())
-    constants = [optical_constants(stack, film) for stack in stacks]
+    constants = [optical_constants(stack, films) for stack in stacks]
     groups: dict[Pattern, list[int]] = {}
     for number, (stack, own) in enumerate(zip(stacks, constants, strict=True)):
         groups.setdefault(pattern(stack, own, nodes), []).append(number)
-    shares = np.empty((3, angles.size, len(stacks)))
+    shares = np.empty((3, len(films), angles.size, len(stacks)))
     with one_thread():
         for shared, members in groups.items():
             for first in range(0, len(members), TOGETHER):
                 some = members[first : first + TOGETHER]
-                shares[:, :, some] = _added_up(
+                shares[..., some] = _added_up(
                     [stacks[number] for number in some],
                     np.array([constants[number].indices for number in some]),
                     shared,
                     [optics(constants[number], shared, radians) for number in some],
                 )
-    return Reflectance(*(shares if np.ndim(angle) else shares[:, 0]))
+    shares = shares if np.ndim(angle) else shares[:, :, 0]
+    return Reflectance(*(shares if isinstance(film, Sequence) else shares[:, 0]))
+
+
+def _films(film: Film) -> tuple[float | None, ...]:
+    """Refractive indices of films, None where there is none."""
+    films = film if isinstance(film, Sequence) else (film,)
+    if not films:
+        raise InputError("films are an empty list; expected at least one, which None may be.")
+    return tuple(films)
 
 
 def _added_up(
     stacks: list[Stack], indices: np.ndarray, shared: Pattern, parts: list[Optics]
 ) -> np.ndarray:
-    """Surface, subsurface and transmitted shares, (3, A, S), of stacks of one pattern.
+    """Surface, subsurface and transmitted shares, (3, F, A, S), of stacks of one pattern.
 
     `indices` (S, L + 2) are those of `OpticalConstants`.
     """
@@ -276,14 +289,17 @@ def _through_face(reflectance: np.ndarray, count: int, below: Below) -> Below:
 
 
 def _through_surface(parts: list[Optics], below: Below) -> np.ndarray:
-    """Surface, subsurface and transmitted shares, (3, A, S)."""
-    mirrored, let_out, surface, entering = (
-        np.stack([getattr(part, name) for part in parts])
-        for name in ("mirrored", "let_out", "surface", "entering")
-    )
-    ends = _solved(below.returned @ mirrored, below.returned @ let_out[:, :, None], below.lost)
-    leaving, lost = entering @ ends.returned, entering @ ends.lost[:, :, None]
-    return np.stack([surface.T, leaving[:, :, 0].T, lost[:, :, 0].T])
+    """Surface, subsurface and transmitted shares, (3, F, A, S)."""
+    shares = []
+    for film in range(len(parts[0].surface)):
+        mirrored, let_out, surface, entering = (
+            np.stack([getattr(part, name)[film] for part in parts])
+            for name in ("mirrored", "let_out", "surface", "entering")
+        )
+        ends = _solved(below.returned @ mirrored, below.returned @ let_out[:, :, None], below.lost)
+        leaving, lost = entering @ ends.returned, entering @ ends.lost[:, :, None]
+        shares.append([surface.T, leaving[:, :, 0].T, lost[:, :, 0].T])
+    return np.array(shares).swapaxes(0, 1)
 
 
 def _solved(around: np.ndarray, returned: np.ndarray, lost: np.ndarray) -> Below:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hylios.adding.solver import NODES, Reflectance, solve
+from hylios.adding.solver import NODES, Film, Reflectance, solve
 from hylios.skin.specimen import Specimen
 from hylios.spectra import require_wavelengths
 from hylios.tissue import Model, Stack
@@ -19,7 +19,7 @@ class Spectrum(Reflectance):
     Attributes
     ----------
     wavelengths : (W,) array, nm
-        The other arrays are (W,) too, or (A, W) for several angles.
+        The other arrays are (W,) too, (A, W) for several angles, (F, ..., W) for several films.
     """
 
     wavelengths: NDArray[np.float64]
@@ -36,18 +36,19 @@ def spectra(
     *,
     angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
-    film: float | None = None,
+    film: Film = None,
     model: Model | None = None,
 ) -> Reflectance:
     """Reflectance of S specimens at W wavelengths in nm, solved together.
 
-    Its arrays are (S, W), or (A, S, W) for several angles. Parameters and errors as in `spectrum`.
+    Its arrays are (S, W), (A, S, W) for several angles, (F, ..., S, W) for several films.
+    Parameters and errors as in `spectrum`.
     """
     row = [float(wavelength) for wavelength in wavelengths]
     stacks = [Stack.of(specimen, nm, model) for specimen in specimens for nm in row]
     solved = solve(stacks, angle, nodes, film=film)
-    shape = *np.shape(angle), len(specimens), len(row)
     shares = solved.surface, solved.subsurface, solved.transmittance
+    shape = *solved.surface.shape[:-1], len(specimens), len(row)
     return Reflectance(*(share.reshape(shape) for share in shares))
 
 
@@ -57,7 +58,7 @@ def spectrum(
     *,
     angle: float | Sequence[float] = 8.0,
     nodes: int = NODES,
-    film: float | None = None,
+    film: Film = None,
     model: Model | None = None,
 ) -> Spectrum:
     """A specimen's spectrum, as `hylios.transport.simulate.spectrum` without its noise.

@@ -88,16 +88,21 @@ def from_outside(
 
 
 def scattered(
-    made: Directions, cosine: np.ndarray, segments: int, beyond: int, roughness: float, turns: int
+    cosine: np.ndarray,
+    here: tuple[Directions, int],
+    beyond: tuple[Directions, int],
+    roughness: float,
+    turns: int,
 ):
-    """Where the surface sends light (R,) that meets it in a medium with nodes, to another such.
+    """Where the surface sends light (R,) that meets it in one medium, to another medium.
 
     Parameters
     ----------
     cosine : (R,) array
         Of the light, in the medium that it comes from.
-    segments, beyond : int
-        Of the medium that it comes from, with N nodes, and of that beyond the surface, with M.
+    here, beyond
+        Directions, and the number of segments, in the medium that it comes from, with N nodes, and
+        in that beyond the surface, with M.
     turns : int
         Azimuths of the normals.
 
@@ -106,24 +111,32 @@ def scattered(
     (R, N), (R, M) arrays
         Shares reflected and let through, by direction.
     """
-    squared, squared_beyond = made.bounds[segments], made.bounds[beyond]
+    (squared, edges), (squared_beyond, edges_beyond) = (
+        _edge_cosines(*side) for side in (here, beyond)
+    )
     index, index_beyond = np.sqrt(squared), np.sqrt(squared_beyond)
     if roughness <= FLAT:
         reflected, passed = fresnel(cosine, index, index_beyond)
         reflected, crossed = reflected[:, None], 1.0 - reflected[:, None]
         back, onwards = cosine[:, None], passed[:, None]
     else:
-        edges, edges_beyond = (
-            np.sqrt(np.maximum(1.0 - made.bounds[1 : last + 1] / made.bounds[last], 0.0))
-            for last in (segments, beyond)
-        )
         reflected, crossed, back, onwards = _rough(
             cosine, index / index_beyond, roughness, edges, edges_beyond, (TILTS, turns)
         )
-    return (
-        interpolation(made, squared * (1.0 - back**2), reflected)[:, : made.within(segments)],
-        interpolation(made, squared_beyond * (1.0 - onwards**2), crossed)[:, : made.within(beyond)],
-    )
+    result = []
+    for (made, segments), limit, place, share in (
+        (here, squared, back, reflected),
+        (beyond, squared_beyond, onwards, crossed),
+    ):
+        rows = interpolation(made, limit * (1.0 - place**2), share)
+        result.append(rows[:, : made.within(segments)])
+    return result
+
+
+def _edge_cosines(made: Directions, segments: int) -> tuple[float, np.ndarray]:
+    """Squared refractive index of a medium, and the cosines at which its segments end."""
+    squared = made.bounds[segments]
+    return squared, np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
 
 
 def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):

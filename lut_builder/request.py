@@ -184,26 +184,24 @@ def _colours(request: Request) -> Iterator[Piece]:
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
     settings, specimens = request.settings, _specimens(request, states)
-    light = spectra(
+    bands = spectra(
+        specimens, settings.bands, angle=ANGLES, nodes=settings.nodes, model=request.model
+    )
+    if not settings.colour_wavelengths:
+        return {"surface": bands.surface, "subsurface": bands.subsurface}
+    seen = spectra(
         specimens,
-        wavelengths(settings),
+        skin_quadrature(settings.colour_wavelengths).wavelengths,
         angle=ANGLES,
         nodes=settings.nodes,
+        film=(None, WATER),
         model=request.model,
     )
-    results = {"surface": light.surface, "subsurface": light.subsurface}
-    if settings.colour_wavelengths:
-        visible = skin_quadrature(settings.colour_wavelengths).wavelengths
-        wet = spectra(
-            specimens,
-            visible,
-            angle=ANGLE,
-            nodes=settings.nodes,
-            film=WATER,
-            model=request.model,
-        )
-        results["wet_subsurface"] = wet.subsurface
-    return results
+    return {
+        "surface": np.concatenate([seen.surface[0], bands.surface], axis=-1),
+        "subsurface": np.concatenate([seen.subsurface[0], bands.subsurface], axis=-1),
+        "wet_subsurface": seen.subsurface[1, 0],
+    }
 
 
 def _specimens(request: Request, states: np.ndarray) -> list[Specimen]:

@@ -8,8 +8,10 @@ import pytest
 from scenes import add_camera, of_role, render, tan_object, white_world
 from synthetic import ROUGHNESS, UNTANNED_COLOUR
 
+from blender_addon.model.catalogue import shipped_path
 from hylios.lab.colour import difference
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.table import melanin_dynamics, minimal_doses, read_table
+from hylios.tanning import PIGMENTATIONS, Exposures, simulate, states_at
 
 FIRST_DAY, LAST_DAY, FIRST_FRAME, LAST_FRAME = 2.0, 20.0, 10, 190
 DAYS_PER_FRAME = (LAST_DAY - FIRST_DAY) / (LAST_FRAME - FIRST_FRAME)
@@ -188,6 +190,32 @@ def test_albedo_under_white_light(tmp_path, table, table_path, day):
         inside = direct(table, plane, np.array([1.0]), min(day, 29.99))[0]
         expected = inside + gloss(angle, ROUGHNESS, tmp_path)
         assert difference(lit(angle, tmp_path), expected) < most
+
+
+@pytest.mark.parametrize("name", ["III", "VI"])
+@pytest.mark.parametrize("day", [0.0, 10.0])
+def test_shipped_skin_under_white_light(tmp_path, name, day):
+    """Gloss and all: the table's total colour at 0 and 45 degrees."""
+    table = read_table(shipped_path(name))
+    if "total_colour_45" not in table.planes:
+        pytest.skip("a table of format 3 has no such colour")
+    obj = tan_object(shipped_path(name), dose=45.0)
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    white_world()
+    add_camera((0.5, 0.5, 5.0), 0.2)
+    frame = 1.0 + day * 249 / 30
+    bpy.context.scene.frame_set(int(frame), subframe=frame % 1.0)
+    minimal = minimal_doses(table.provenance)
+    states = states_at(
+        Exposures([0], [45.0]),
+        melanin_dynamics(table.provenance),
+        times=[24.0 * obj["tan_day"]],
+        mmd=minimal.mmd,
+        med=minimal.med,
+    )
+    for angle, plane, most in ((0.0, "total_colour", 0.25), (45.0, "total_colour_45", 0.4)):
+        error = difference(lit(angle, tmp_path), table.plane(plane, states)[0])
+        assert error < most
 
 
 def test_profile_width_does_not_depend_on_the_unit_of_the_scene(table_path):

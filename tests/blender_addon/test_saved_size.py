@@ -1,0 +1,40 @@
+"""What a tan adds to a saved file."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import apply, tan_object
+
+MEGABYTE = 1e6
+
+
+def saved(folder) -> int:
+    path = folder / "saved.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False, copy=True)
+    return path.stat().st_size
+
+
+def sunny(table_path, days: float, exposures: int):
+    obj = tan_object(table_path)
+    obj.skin_tan.last_day = days
+    random = np.random.default_rng(exposures)
+    for day in np.sort(random.uniform(0.0, 0.8 * days, exposures - 1)):
+        exposure = obj.skin_tan.exposures.add()
+        exposure.day, exposure.dose = float(day), float(random.uniform(2.0, 14.0))
+    return obj
+
+
+@pytest.mark.parametrize(
+    ("days", "exposures", "first", "further"),
+    [(30.0, 1, 0.4, 0.33), (30.0, 10, 0.42, 0.35), (365.0, 20, 0.7, 0.6)],
+)
+def test_a_tan_adds_little_to_a_file(table_path, tmp_path, days, exposures, first, further):
+    """In megabytes. Another object of the same skin brings no look of its own."""
+    objects = [sunny(table_path, days, exposures) for _ in range(2)]
+    sizes = [saved(tmp_path)]
+    for obj in objects:
+        apply(obj)
+        sizes.append(saved(tmp_path))
+    added = np.diff(sizes) / MEGABYTE
+    assert added[0] < first
+    assert added[1] < further

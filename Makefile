@@ -38,7 +38,7 @@ simplifications: environment
 	@$(BIN)/python -m examples.simplifications
 
 # Renders skin and compares it with the light model; with ONLY=edge that alone, else the page too.
-# BESIDE is the output folder of a run with another Blender, to stand beside this one.
+# BESIDE has rows.csv of a run with another Blender, to stand beside this one's.
 truth: environment
 	@$(BIN)/python -m examples.truth $(if $(ONLY),--only $(ONLY),--page docs/truth.md) \
 	    $(if $(BESIDE),--beside $(BESIDE)) $(if $(OUT),--out $(OUT))
@@ -76,5 +76,5 @@ TABLES := I II III IV V VI S1 S2 S3 S4
 .PHONY: tables
 tables: environment
 	@for name in $(TABLES); do \
-	    $(BIN)/lut-builder build --specimen $$name --half --force -o blender_addon/tables/$$name.exr || exit; \
+	    $(BIN)/lut-builder build --specimen $$name --force -o blender_addon/tables/$$name.exr || exit; \
 	done

@@ -50,9 +50,8 @@ def colours(
 
     Parameters
     ----------
-    states : (N, 4) array
-        Melanin of basale, spinosum, granulosum relative to the total without sun, and thickness
-        relative to that without sun.
+    states : (N, 4) or (N, 5) array
+        As `hylios.Skin.at` takes them.
     count : int
         Wavelengths that make the colour, 4 to 16 (`hylios.quadrature.skin_quadrature`).
     bands : sequence of float
@@ -71,8 +70,8 @@ def colours(
         a state cannot be solved (`solve`).
     """
     states = np.asarray(states, dtype=float)
-    if states.ndim != 2 or states.shape[1] != 4:
-        raise InputError(f"tanning states have shape {states.shape}; expected (N, 4).")
+    if states.ndim != 2 or states.shape[1] not in {4, 5}:
+        raise InputError(f"tanning states have shape {states.shape}; expected (N, 4) or (N, 5).")
     colour = skin_quadrature(count)
     if len(bands):
         bands = require_wavelengths(bands, (model or Model()).spectra).tolist()

@@ -119,8 +119,7 @@ def reflectances(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes:
 def table_light(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes: int) -> None:
     """Solve as a table needs it: at all its angles, and wet."""
     specimens = [skin.at(state) for state in states]
-    spectra(specimens, wavelengths, angle=ANGLES, nodes=nodes)
-    spectra(specimens, wavelengths, angle=ANGLE, nodes=nodes, film=WATER)
+    spectra(specimens, wavelengths, angle=ANGLES, nodes=nodes, film=(None, WATER))
 
 
 def solver_cost(skin: Skin, nodes: int, repeats: int) -> Cost:

@@ -41,6 +41,13 @@ def test_more_wavelengths_change_colours_little_and_states_are_as_alone():
     assert colours(S3, np.empty((0, 4)), bands=[400.0]).bands.shape == (0, 1)
 
 
+def test_blood_is_a_fifth_number():
+    with_blood = np.column_stack([STATES, [1.0, 1.0, 6.0]])
+    usual, flushed = colours(S3, STATES, count=4).total, colours(S3, with_blood, count=4).total
+    assert np.array_equal(usual[:2], flushed[:2])
+    assert flushed[2, 1] < 0.9 * usual[2, 1]
+
+
 ABSORBING = ("blood", "melanosomes", "melanin", "lipids", "water", "carotene", "keratin", "acid")
 
 

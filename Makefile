@@ -38,7 +38,7 @@ simplifications: environment
 	@$(BIN)/python -m examples.simplifications
 
 # Renders skin and compares it with the light model; with ONLY=edge that alone, else the page too.
-# BESIDE has rows.csv of a run with another Blender, to stand beside this one's.
+# BESIDE is the output folder of a run with another Blender, to stand beside this one.
 truth: environment
 	@$(BIN)/python -m examples.truth $(if $(ONLY),--only $(ONLY),--page docs/truth.md) \
 	    $(if $(BESIDE),--beside $(BESIDE)) $(if $(OUT),--out $(OUT))

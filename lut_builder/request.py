@@ -11,7 +11,7 @@ import numpy as np
 
 from hylios.adding import spectra
 from hylios.adding.absorptance import tabulated
-from hylios.adding.solver import NODES, Reflectance
+from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.specimen import Specimen
@@ -184,30 +184,23 @@ def _colours(request: Request) -> Iterator[Piece]:
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:
     settings, specimens = request.settings, _specimens(request, states)
-
-    def light(at: np.ndarray, films: tuple[float | None, ...]) -> Reflectance:
-        return spectra(
-            specimens,
-            at,
-            angle=ANGLES,
-            nodes=settings.nodes,
-            film=films,
-            model=request.model,
-        )
-
-    few = wavelengths(settings)
-    single = light(few[settings.colour_wavelengths :], (None,))
-    surface, subsurface = [single.surface[0]], [single.subsurface[0]]
-    results = {}
-    if settings.colour_wavelengths:
-        visible = light(few[: settings.colour_wavelengths], (None, WATER))
-        surface.insert(0, visible.surface[0])
-        subsurface.insert(0, visible.subsurface[0])
-        results["wet_subsurface"] = visible.subsurface[1, ANGLES.index(ANGLE)]
+    bands = spectra(
+        specimens, settings.bands, angle=ANGLES, nodes=settings.nodes, model=request.model
+    )
+    if not settings.colour_wavelengths:
+        return {"surface": bands.surface, "subsurface": bands.subsurface}
+    seen = spectra(
+        specimens,
+        skin_quadrature(settings.colour_wavelengths).wavelengths,
+        angle=ANGLES,
+        nodes=settings.nodes,
+        film=(None, WATER),
+        model=request.model,
+    )
     return {
-        "surface": np.concatenate(surface, axis=-1),
-        "subsurface": np.concatenate(subsurface, axis=-1),
-        **results,
+        "surface": np.concatenate([seen.surface[0], bands.surface], axis=-1),
+        "subsurface": np.concatenate([seen.subsurface[0], bands.subsurface], axis=-1),
+        "wet_subsurface": seen.subsurface[1, 0],
     }
 
 

@@ -44,11 +44,11 @@ def truth(arguments: argparse.Namespace) -> None:
     seconds = time.monotonic() - started
     arguments.out.mkdir(parents=True, exist_ok=True)
     machine = page.machine(seconds)
-    write_rows(arguments.out / "rows.csv", rows, machine)
+    write_rows(arguments.out / page.ROWS, rows, machine)
     write_readings(arguments.out / "readings.csv", readings)
     page.draw(outcomes, arguments.out)
     if arguments.page:
-        page.write(arguments.page, outcomes, machine, arguments.beside)
+        page.write(arguments.page, [arguments.out, *arguments.beside])
     print(table(rows))
     missed = sum(row.met is False for row in rows)
     print(f"{len(rows)} rows, {missed} not met; {seconds:.0f} s, in {arguments.out.resolve()}")
@@ -85,7 +85,11 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=Path("out/truth"))
     parser.add_argument("--page", type=Path, help="page of docs to write, its pictures beside it")
     parser.add_argument(
-        "--beside", type=Path, help="rows.csv of a run with another Blender, for the page"
+        "--beside",
+        type=Path,
+        action="append",
+        default=[],
+        help="output folder of a run with another Blender, for the page",
     )
     return run(truth, parser.parse_args())
 

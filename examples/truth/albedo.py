@@ -16,6 +16,8 @@ WHOLE = {0.0: (0.12, 0.25), 45.0: (0.25, 0.4), 70.0: (1.8, 2.4)}
 INSIDE = {0.0: (0.06, 0.12), 45.0: (0.06, 0.12), 70.0: (0.2, 0.4)}
 """What is allowed at each angle: mean and largest CIEDE2000."""
 
+SAMPLES = 448
+
 AGAIN = 13
 """Every so many pictures one is taken again, to tell what chance does."""
 
@@ -23,7 +25,15 @@ AGAIN = 13
 def shots(bloods: Sequence[float] = BLOODS) -> list[Shot]:
     """All types, tans and bloods at each angle; some again with other chance."""
     once = [
-        Shot(f"{skin} {tan} blood {blood:g} at {angle:g}", "white", skin, tan, blood, angle)
+        Shot(
+            f"{skin} {tan} blood {blood:g} at {angle:g}",
+            "white",
+            skin,
+            tan,
+            blood,
+            angle,
+            samples=SAMPLES,
+        )
         for skin in TYPES
         for angle in ANGLES
         for tan in TANS

@@ -22,7 +22,7 @@ RAYS = 10_000_000
 def shots() -> list[Shot]:
     """Each angle of incidence, on a type and on the thesis's specimens."""
     return [
-        Shot(f"gloss {skin} at {angle:g}", "lobe", skin, angle=angle, size=(384, 384), samples=8)
+        Shot(f"gloss {skin} at {angle:g}", "lobe", skin, angle=angle, size=(320, 320), samples=4)
         for skin in (USUAL, *OTHERS)
         for angle in ALLOWED
     ]

@@ -1,8 +1,9 @@
 """The page of docs that shows what was compared, with its pictures."""
 
 import platform
+import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from os import cpu_count
 from pathlib import Path
@@ -13,10 +14,12 @@ from matplotlib.figure import Figure
 from examples.truth import text
 from examples.truth.outcome import Outcome, Reading, Row, markdown, read_rows
 from examples.truth.shots import TYPES
+from hylios.errors import InputError
 from hylios.files import written_beside
 from hylios.lab.colour import srgb
 from hylios.lab.pictures import write_figure
 
+ROWS = "rows.csv"
 CHANNELS = ("tab:red", "tab:green", "tab:blue")
 
 
@@ -35,32 +38,37 @@ def draw(outcomes: Mapping[str, Outcome], folder: Path) -> None:
     drawings = {"albedo": _albedo, "edge": _edges, "gloss": _lobes, "slab": _slabs}
     for name, outcome in outcomes.items():
         if name in drawings:
-            figure = drawings[name]({reading.case: reading for reading in outcome.readings})
+            whole = [reading for reading in outcome.readings if "inside" not in reading.row]
+            figure = drawings[name]({reading.case: reading for reading in whole})
             write_figure(figure, folder / f"truth_{name}.png")
 
 
-def write(
-    path: Path,
-    outcomes: Mapping[str, Outcome],
-    described: Mapping[str, str],
-    beside: Path | None,
-) -> None:
-    """Write the page and its pictures; `beside` has the rows of a run with another Blender."""
-    columns: dict[str, list[Row]] = {
-        described["blender"]: [row for outcome in outcomes.values() for row in outcome.rows]
-    }
-    runs = [described]
-    if beside is not None:
-        other, rows = read_rows(beside)
-        columns[other["blender"]] = rows
-        runs.append(other)
+def write(path: Path, folders: Sequence[Path]) -> None:
+    """Write the page from the folders of runs, each with another Blender; pictures of the first.
+
+    Raises
+    ------
+    InputError
+        If a folder has no rows.
+    """
+    columns: dict[str, list[Row]] = {}
+    runs = []
+    for folder in folders:
+        if not (folder / ROWS).exists():
+            raise InputError(f"{folder} has no {ROWS}; expected the folder of a run.")
+        described, rows = read_rows(folder / ROWS)
+        columns[described["blender"]] = rows
+        runs.append(described)
     made = "; ".join(
         f"Blender {run['blender']} on {run['machine']}, {run['date']}, {run['seconds']} s"
         for run in runs
     )
-    draw(outcomes, path.parent)
+    names = {row.name.split(",")[0] for row in columns[runs[0]["blender"]]}
     parts = [text.INTRODUCTION, markdown(columns), text.MADE.format(made=made)]
-    parts += [text.SECTIONS[name] for name in outcomes if name in text.SECTIONS]
+    parts += [section for name, section in text.SECTIONS.items() if name in names]
+    for picture in sorted(folders[0].glob("truth_*.png")):
+        with written_beside(path.parent / picture.name) as file:
+            shutil.copyfile(picture, file)
     with written_beside(path) as file:
         file.write_text("\n".join(parts), encoding="utf-8")
 
@@ -68,7 +76,6 @@ def write(
 def _albedo(readings: Mapping[str, Reading]) -> Figure:
     """Each type in its tans and bloods, seen from above: the render around the model's colour."""
     cases = [case for case in readings if case.endswith("at 0")]
-    cases = [case for case in cases if readings[case].row.endswith("whole")]
     columns = list(dict.fromkeys(case.split(" ", 1)[1] for case in cases))
     size, inner = 40, slice(12, 28)
     picture = np.ones((len(TYPES) * size, len(columns) * size, 3))

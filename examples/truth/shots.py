@@ -42,6 +42,8 @@ class Shot:
         One of the add-on's skins.
     tan : str
         One of `TANS`.
+    table : str
+        File of the skin's table in place of the add-on's own; empty for that.
     blood : float
         What the group's input Blood is set to.
     angle : float
@@ -74,6 +76,7 @@ class Shot:
     size: tuple[int, int] = (32, 32)
     samples: int = 256
     seed: int = 1
+    table: str = ""
     plain: bool = False
     engine: str = "CYCLES"
     space: str = ""

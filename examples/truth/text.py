@@ -85,9 +85,10 @@ thicker slab differs by what its dermis absorbs.
 ILLUMINANTS = """\
 ## Other lamps
 
-A product of three numbers of albedo and three of a lamp is no spectrum times a spectrum. Shown is a
-table for D65 under a lamp of an illuminant's colour, said the reflected spectrum under that
-illuminant; both are adapted to the lamp's white (Bradford).
+A table made for an illuminant (`lut-builder build --illuminant`, here with the preset preview) is
+used under white lamps; the model says the reflected spectrum under the illuminant, adapted to its
+white (Bradford). A table for D65 under a lamp of the illuminant's colour is farther off: a product
+of three numbers of albedo and three of a lamp is no spectrum times a spectrum.
 """
 
 ALIKE = """\

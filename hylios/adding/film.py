@@ -62,11 +62,12 @@ def through_film(
 def _directions(
     made: Directions, segments: int, film: float, above: float
 ) -> tuple[Directions, int]:
-    """Directions of light in the film, cut where its face reflects totally.
+    """Directions of light in the film, cut where its face and the skin reflect totally.
 
     It has nodes of its own: in the skin, what the film lets out is smooth where it ends, for the
     rough surface turns light by more than that.
     """
-    indices = sorted({film, above})
+    skin = float(np.sqrt(made.bounds[segments]))
+    indices = [above, *([skin] if above < skin < film else []), film]
     bounds = np.array([0.0, *indices]) ** 2
-    return Directions(bounds, node_counts(bounds, made.within(segments))), indices.index(film) + 1
+    return Directions(bounds, node_counts(bounds, made.within(segments))), len(indices)

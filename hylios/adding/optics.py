@@ -112,14 +112,14 @@ def optical_constants(stack: Stack, films: tuple[float | None, ...] = (None,)) -
     Raises
     ------
     InputError
-        If a film's lies outside 1 to that of the uppermost layer.
+        If a film's lies outside that above the stack to 2.
     """
     inner = tuple(layer.refractive_index for layer in stack.layers)
     if stack.readings["inner_fresnel"] == "off":
         inner = inner[:1] * len(inner)
     for film in films:
         if film is not None:
-            require_range("refractive index of the film", film, 1.0, inner[0])
+            require_range("refractive index of the film", film, stack.index_above, 2.0)
     below = inner[-1] if stack.lambertian_floor else stack.index_below
     return OpticalConstants(
         roughness=stack.roughness,

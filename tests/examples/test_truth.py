@@ -9,9 +9,10 @@ import pytest
 
 import blender_addon
 from examples.demo import render
-from examples.truth import albedo, alike, cycles, gloss, illuminants, model
+from examples.truth import albedo, alike, cycles, gloss, illuminants, model, page
 from examples.truth.outcome import Reading, Row, markdown, read_rows, write_rows
 from examples.truth.shots import Shot
+from hylios.errors import InputError
 
 
 @pytest.fixture
@@ -122,15 +123,23 @@ def test_a_row_is_met_where_mean_and_largest_are_within_what_is_allowed(tmp_path
     write_rows(tmp_path / "rows.csv", rows, described)
     assert read_rows(tmp_path / "rows.csv") == (described, rows)
     assert "| b | CIEDE2000 | 3 / 3.9 | 3.000 / 4.000 | **no** |" in markdown({"5.0.1": rows})
+    page.write(tmp_path / "page.md", [tmp_path])
+    assert "Blender 5.0.1 on x, y, 1 s" in (tmp_path / "page.md").read_text()
+    with pytest.raises(InputError, match="has no rows.csv"):
+        page.write(tmp_path / "page.md", [tmp_path / "other"])
 
 
-def test_one_comparison_from_exposures_to_row(addon, tmp_path):
-    shot = Shot("III light", "white", "III", "light", size=(8, 8), samples=64)
-    assert list(cycles.shot_all([shot], tmp_path)) == [shot.name]
-    with np.load(tmp_path / "III light.npz") as light:
-        whole, inside = albedo.read([shot], {shot.name: dict(light)}).rows
+def test_one_comparison_from_exposures_to_row_and_picture(addon, tmp_path):
+    name = "III light blood 1 at 0"
+    shot = Shot(name, "white", "III", "light", size=(8, 8), samples=64)
+    assert list(cycles.shot_all([shot], tmp_path)) == [name]
+    with np.load(tmp_path / f"{name}.npz") as light:
+        outcome = albedo.read([shot], {name: dict(light)})
+    whole, inside = outcome.rows
     assert whole.what == "albedo, whole, at 0°" and inside.what.startswith("albedo, subsurface")
-    assert inside.mean < 1.5  # at so few samples
+    assert max(whole.mean, inside.mean) < 1.0  # at so few samples
+    page.draw({"albedo": outcome}, tmp_path)
+    assert (tmp_path / "truth_albedo.png").exists()
 
 
 @pytest.mark.slow

@@ -40,16 +40,16 @@ def test_an_entry_is_the_solution_of_its_state(small, place):
     """The same solver's, alone: colours at all angles and wet, bands, what the surface reflects."""
     specimen = SKIN.at(small.axes.knot_states()[place])
     few = skin_quadrature(SMALL.colour_wavelengths)
-    both = solved(specimen, few.wavelengths, angle=ANGLES, film=(None, WATER))
+    seen = solved(specimen, few.wavelengths, angle=ANGLES, film=(None, WATER))
     bands = solved(specimen, SMALL.bands, angle=ANGLE)
     expected = {
-        "subsurface_colour": few.weights @ both.subsurface[0, 0],
-        "subsurface_colour_45": few.weights @ both.subsurface[0, 1],
-        "subsurface_colour_60": few.weights @ both.subsurface[0, 2],
-        "subsurface_colour_70": few.weights @ both.subsurface[0, 3],
-        "total_colour": few.weights @ both.total[0, 0],
-        "total_colour_45": few.weights @ both.total[0, 1],
-        "wet_subsurface_colour": few.weights @ both.subsurface[1, 0],
+        "subsurface_colour": few.weights @ seen.subsurface[0, 0],
+        "subsurface_colour_45": few.weights @ seen.subsurface[0, 1],
+        "subsurface_colour_60": few.weights @ seen.subsurface[0, 2],
+        "subsurface_colour_70": few.weights @ seen.subsurface[0, 3],
+        "total_colour": few.weights @ seen.total[0, 0],
+        "total_colour_45": few.weights @ seen.total[0, 1],
+        "wet_subsurface_colour": few.weights @ seen.subsurface[1, 0],
         "band_reflectance": bands.total,
     }
     for name, values in expected.items():

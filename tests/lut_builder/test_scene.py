@@ -12,7 +12,7 @@ from hylios.tanning import Exposures
 from lut_builder.assemble import build, requested
 from lut_builder.check import check
 from lut_builder.reachable import reachable_states, reached_states, untanned_state
-from lut_builder.request import ANGLE, pieces
+from lut_builder.request import ANGLE, WATER, pieces
 from lut_builder.settings import Settings
 
 SKINS = {name: phototype(name).skin for name in ("I", "III", "VI")}
@@ -40,8 +40,9 @@ def colours(skin, states: np.ndarray) -> np.ndarray:
     """From the wavelengths of `COLOURS`: what a table differs by is its interpolation's error."""
     few = skin_quadrature(COLOURS.colour_wavelengths)
     specimens = [skin.at(state) for state in states]
-    light = spectra(specimens, few.wavelengths, angle=ANGLE, nodes=COLOURS.nodes)
-    return (light.surface + light.subsurface) @ few.weights.T
+    films = (None, WATER)  # whose nodes the table's solutions have
+    light = spectra(specimens, few.wavelengths, angle=ANGLE, nodes=COLOURS.nodes, film=films)
+    return (light.surface + light.subsurface)[0] @ few.weights.T
 
 
 CASES = [("III", "once", 0.15), ("VI", "two months", 0.4)]

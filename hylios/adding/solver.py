@@ -103,10 +103,9 @@ def solve(
     nodes : int
         Directions, 6 to 200.
     film : float or sequence of float or None, optional
-        Refractive index of a film on the surface (`hylios.adding.film`), from that outside to 2:
-        1.33 for water, 1.4 to 1.47 for oil or sunscreen; one denser than the uppermost layer may be
-        off by .003. What it reflects is the surface's. Several take little longer than one, and
-        None among them is no film, as by default.
+        Refractive index of a film on the surface (`hylios.adding.film`), up to 2: 1.33 for water,
+        1.4 to 1.47 for oil; beyond the uppermost layer's it may be off by .003. What it reflects is
+        the surface's. Several take little longer than one; None among them is no film.
 
     Raises
     ------

@@ -61,7 +61,8 @@ def test_it_renders_as_it_did_and_still_does_after_apply(body, tmp_path, name):
     assert colours(obj, tmp_path) == pytest.approx(np.array(COLOURS[name]), abs=2e-5)
     assert apply(obj) == {"FINISHED"}
     untanned, tanned = colours(obj, tmp_path)
-    assert untanned == pytest.approx(np.array(COLOURS[name][0]), abs=2e-5)
+    # The table is another since: its solver has more directions near the surface.
+    assert difference(untanned, np.array(COLOURS[name][0])).max() < 0.02
     assert difference(tanned, np.array(COLOURS[name][1])).max() < 0.3
 
 
@@ -76,7 +77,7 @@ def test_apply_takes_the_old_material_over(body):
     assert look(body) != before and look(twin) == of_twin
     assert group_node(body).inputs["Roughness"].default_value == pytest.approx(0.3)
     assert "Freckles" in body.skin_tan.group.nodes
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 2 and len(bpy.data.images) == 7
+    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 2 and len(bpy.data.images) == 9
     nodes = len(body.skin_tan.group.nodes)
     apply(body)
     assert len(body.skin_tan.group.nodes) == nodes

@@ -112,7 +112,9 @@ def reflectances(skin: Skin, states: np.ndarray, wavelengths: np.ndarray, nodes:
     parts = []
     for first in range(0, len(states), STATES_TOGETHER):
         some = [skin.at(state) for state in states[first:][:STATES_TOGETHER]]
-        parts.append(spectra(some, wavelengths, angle=ANGLE, nodes=nodes).total)
+        # with a film beside: its directions are the table's
+        light = spectra(some, wavelengths, angle=ANGLE, nodes=nodes, film=(None, WATER))
+        parts.append(light.total[0])
     return np.concatenate(parts)
 
 

@@ -142,7 +142,8 @@ def _roots(low: float, high: float) -> NDArray[np.float64]:
     step = (high - low) / (COLUMNS - 1)
     if low < 1.0 < high:
         step = (1.0 - low) / np.ceil((1.0 - low) / step)
-    return low + step * np.arange(int(np.ceil((high - low) / step - 1e-9)) + 1)
+    roots = low + step * np.arange(int(np.ceil((high - low) / step - 1e-9)) + 1)
+    return np.asarray(roots, dtype=float)
 
 
 def _thin_and_thick(

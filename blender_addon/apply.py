@@ -8,7 +8,7 @@ from .model import doses
 from .model.settings import TanSettings, check_frames
 from .model.tan import Tan, tan_of
 from .props import settings_of
-from .scene import attributes, first_version, images, layout_1, materials, nodes, timeline
+from .scene import attributes, detail, first_version, images, layout_1, materials, nodes, timeline
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.plan import LOOK
@@ -47,6 +47,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         )
         replaced = nodes.update(skin.group, sampled, changes)
         said = skin.attach(obj, changes)
+        detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         return " ".join([said, *_remarks(obj, skin, values, tan), *_on_kept(kept)])

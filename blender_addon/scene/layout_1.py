@@ -113,6 +113,8 @@ def _share_with_near_skin(group: Any, changes: Changes) -> None:
         if other is None or end.identifier.startswith(("Base Color", "Subsurface")):
             continue
         if end.is_linked:
-            group.links.new(end.links[0].from_socket, other)
+            start = end.links[0].from_socket
+            if start.node.get(ROLE_KEY) != "input":  # the plan links those
+                group.links.new(start, other)
         elif hasattr(end, "default_value"):
             other.default_value = end.default_value

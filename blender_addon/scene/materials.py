@@ -6,11 +6,14 @@ from typing import Any, cast
 
 import bpy
 
-from . import first_version, nodes
+from . import detail, first_version, nodes
 from .changes import Changes
 from .ownership import Users, is_local, names, remembered
 
 PREFIX = "Skin Tan "
+
+NEW_SKIN = {"Relief": 1.0, "Variation": 1.0, "Oil": 0.25}
+"""Sliders of a new material; all 0 is the even, dry skin of the light model."""
 
 
 @dataclass
@@ -115,6 +118,11 @@ def _new_skin(obj: bpy.types.Object, users: Users) -> Skin:
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (260, 0)
     tree.links.new(skin.outputs["Surface"], output.inputs["Surface"])
+    detail.add_detail(tree, skin)
+    made: Any = tree.nodes
+    for node in made:
+        for name in NEW_SKIN.keys() & node.inputs.keys():
+            node.inputs[name].default_value = NEW_SKIN[name]
     return Skin(group, material, users)
 
 

@@ -6,7 +6,7 @@ values alone.
 """
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ import bpy
 from hylios.errors import InputError
 
 from .changes import Changes
-from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES
+from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES, Role
 
 # Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
 RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
@@ -24,6 +24,7 @@ INPUTS = {
     "Roughness": (0.45, 1.0, "Of the surface; the default is that of the skin's table"),
     "Specular": (0.5, 1.0, "Strength of the gloss; .5 is that of skin"),
     "Melanin": (1.0, 100.0, "Melanin over that of the tan: 1 leaves it, 0 is skin without any"),
+    "Oil": (0.0, 1.0, "Oil on the skin: makes one of its two gloss lobes sharper"),
     "Blood": (1.0, 100.0, "Blood over that of the skin: 1 leaves it, 2 is a flush"),
 }
 """Inputs of the group: default, largest value and what they are."""
@@ -201,6 +202,9 @@ def add_sockets(group: Any) -> list[str]:
         socket.subtype = "FACTOR"
         socket.min_value, socket.max_value = 0.0, most
         socket.default_value = default
+    if ("INPUT", "Normal") not in present:
+        normal = interface.new_socket("Normal", in_out="INPUT", socket_type="NodeSocketVector")
+        normal.hide_value = True
     for name, (kind, says) in OUTPUTS.items():
         if ("OUTPUT", name) not in present:
             interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
@@ -214,10 +218,14 @@ def complete(group: Any, made: Collection[str]) -> None:
     link(group, made)
 
 
-def link(group: Any, made: Collection[str]) -> None:
-    """Link nodes of some roles as the plan has it, other than into what is linked already."""
+def link(
+    group: Any,
+    made: Collection[str],
+    links: Sequence[tuple[str, str | int, str, str | int]] = LINKS,
+) -> None:
+    """Link nodes of some roles as a plan has it, other than into what is linked already."""
     present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
-    for source, output, target, socket in LINKS:
+    for source, output, target, socket in links:
         if {source, target} & set(made) and {source, target} <= set(present):
             start = find_output(present[source], output)
             end = find_input(present[target], socket)
@@ -225,9 +233,9 @@ def link(group: Any, made: Collection[str]) -> None:
                 group.links.new(start, end)
 
 
-def new_node(group: Any, role: str) -> Any:
+def new_node(group: Any, role: str, roles: Mapping[str, Role] = ROLES) -> Any:
     """A new node of a role, not linked yet."""
-    plan = ROLES[role]
+    plan = roles[role]
     node = group.nodes.new(plan.kind)
     node.label, node.location, node[ROLE_KEY] = plan.label, plan.location, role
     for name, value in plan.values.items():

@@ -21,6 +21,9 @@ DAY_PROPERTY = "tan_day"
 INDEX = 1.5526
 """Index of refraction of the surface of the skin in the model."""
 
+SHARPEST = 0.3
+"""Roughness of fully oiled skin's sharper gloss over that of the skin, by eye."""
+
 MOST_BASE = (0.999, 0.999, 0.999)
 """What a base colour is cut to; with more than 1 a shader would make light."""
 
@@ -150,6 +153,13 @@ ROLES = {
     "near_base": _vector("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
     "far_base": _vector("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
     "radius": Role("ShaderNodeValue", "Width to radius", (2000, -100)),
+    "dryness": _math("MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0),
+    "sharper": _math("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
+    "given": _vector("LENGTH", "Length of the given normal", (1900, -300)),
+    "without": _math("LESS_THAN", "No normal given", (2050, -300), at_1=0.5),
+    "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
+    "own_normal": _vector("SCALE", "Normal of the mesh or none", (2050, -500)),
+    "normal": _vector("ADD", "Normal", (2200, -400)),
     "near_skin": _principled("Skin, near light", (2350, 0)),
     "skin": _principled("Skin", (2350, 500)),
     "lobes": Role("ShaderNodeMixShader", "Near and far light", (2700, 400)),
@@ -157,12 +167,13 @@ ROLES = {
 }
 
 SHADERS = frozenset(
+    "dryness sharper given without geometry own_normal normal "
     "near_skin lobes near_base far_base near_scaled far_scaled near_part far_part base gain slope "
     "facing".split()
 )
 """Roles that nobody needs where an artist has put another shader in place of ours."""
 
-LINKS = (
+LINKS: tuple[tuple[str, str | int, str, str | int], ...] = (
     ("mask", "Fac", "share", 0),
     ("share", "Value", "column", 0),
     ("day", "Fac", "row", 0),
@@ -217,7 +228,18 @@ LINKS = (
     ("far_base", "Vector", "skin", "Base Color"),
     ("width", "Color", "skin", "Subsurface Radius"),
     ("radius", "Value", "skin", "Subsurface Scale"),
-    *(("input", "Roughness", role, "Roughness") for role in ("skin", "near_skin")),
+    ("input", "Roughness", "skin", "Roughness"),
+    ("input", "Oil", "dryness", 0),
+    ("dryness", "Value", "sharper", 0),
+    ("input", "Roughness", "sharper", 1),
+    ("sharper", "Value", "near_skin", "Roughness"),
+    ("input", "Normal", "given", 0),
+    ("given", "Value", "without", 0),
+    ("geometry", "Normal", "own_normal", 0),
+    ("without", "Value", "own_normal", "Scale"),
+    ("input", "Normal", "normal", 0),
+    ("own_normal", "Vector", "normal", 1),
+    *(("normal", "Vector", role, "Normal") for role in ("skin", "near_skin")),
     *(("input", "Specular", role, "Specular IOR Level") for role in ("skin", "near_skin")),
     ("near_skin", "BSDF", "lobes", 1),
     ("skin", "BSDF", "lobes", 2),

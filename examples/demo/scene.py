@@ -147,6 +147,17 @@ def add_mask(mesh: bpy.types.Mesh, cloth: swimsuit.Field) -> None:
     mesh.attributes[MASK].data.foreach_set("value", share.astype(np.float32))
 
 
+def make_even(obj: bpy.types.Object) -> None:
+    """Take relief, blotches and oil from a tanned object's skin, as the light model has it."""
+    for material in filter(None, (slot.material for slot in obj.material_slots)):
+        tree = material.node_tree
+        for node in list(tree.nodes):
+            if "Oil" in node.inputs:
+                node.inputs["Oil"].default_value = 0.0
+            elif "Relief" in node.inputs:
+                tree.nodes.remove(node)
+
+
 def positions_and_normals(mesh: bpy.types.Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Both (V, 3), of a mesh's vertices."""
     arrays = []

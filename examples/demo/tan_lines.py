@@ -39,8 +39,8 @@ def demo(_: argparse.Namespace) -> None:
         render.prepare(bpy.context.scene)
         with interrupt.removing(unfinished):
             stills(unfinished)
-            readings = measured(person, obj, unfinished)
             video(unfinished)
+            readings = measured(person, obj, unfinished)
         files = sorted(path for path in unfinished.iterdir() if path.is_file())
         for path in files:
             os.replace(path, OUT / path.name)
@@ -104,7 +104,11 @@ def stills(folder: Path) -> None:
 
 
 def measured(person: scene.Subject, obj: bpy.types.Object, folder: Path) -> list[colours.Reading]:
-    """Read the colours of the skin back from renders of the days, as with a white standard."""
+    """Read the colours of the skin back from renders of the days, as with a white standard.
+
+    The skin is made even for it, as the light model has it.
+    """
+    scene.make_even(obj)
     predicted = colours.predictions(read_table(folder / TABLE), DOSE, DAYS)
     shot = bpy.context.scene
     readings = []

@@ -47,6 +47,7 @@ def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> No
         settings.first_day, settings.last_day = 0.0, LAST_DAY
         settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
         apply_tan(tanned, bpy.context.scene)
+        scene.make_even(tanned)
         if number:
             material = tanned.skin_tan.material
             bpy.data.objects.remove(tanned)

@@ -15,6 +15,7 @@ import numpy as np
 
 import blender_addon
 from examples.demo import render
+from examples.demo.scene import make_even
 from examples.demo.tan_lines import silence_blender
 from examples.simplifications.light import seconds as processor_time
 from examples.truth.shots import DONE, FRAMES_PER_DAY, LAST_DAY, TANS, Shot
@@ -68,6 +69,7 @@ def built(shot: Shot) -> bpy.types.Object:
     bpy.context.view_layer.objects.active = skin
     if bpy.ops.skin_tan.apply() != {"FINISHED"}:
         raise InputError(f"Apply failed for the shot {shot.name!r}.")
+    make_even(skin)
     if shot.plain:
         skin.material_slots[0].material = plain_material()
     _set_up(scene, shot.engine)

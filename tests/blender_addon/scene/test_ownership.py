@@ -10,6 +10,7 @@ from scenes import (
     modifier_input,
     of_role,
     set_modifier_input,
+    tan_groups,
     tan_object,
 )
 
@@ -46,7 +47,7 @@ def test_names_that_meet_when_they_are_cut(table_path, prefix):
     assert look(first) == before != look(second)
     apply(first)
     assert look(first) == before
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 2
+    assert len(bpy.data.materials) == len(tan_groups()) == 2
     assert len(bpy.data.images) == 2 * OWN_IMAGES + LOOK_IMAGES
 
 
@@ -67,7 +68,7 @@ def test_what_is_renamed_is_found_again(body, collection):
     body.skin_tan.exposures[0].dose = 8.0
     apply(body)
     assert {block.name for block in getattr(bpy.data, collection)} == names
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 1
+    assert len(bpy.data.materials) == len(tan_groups()) == 1
     assert len(bpy.data.images) == OWN_IMAGES + LOOK_IMAGES
 
 
@@ -222,7 +223,7 @@ def test_the_artist_s_group_around_the_tan_is_kept(body):
     apply(body)
     assert body.material_slots[0].material == material
     assert [node.bl_idname for node in outer.nodes] == ["ShaderNodeGroup", "ShaderNodeBump"]
-    assert len(tree.nodes) == 1 and len(bpy.data.node_groups) == 2
+    assert len(tree.nodes) == 1 and len(tan_groups()) == 1
     assert of_role(body, "states").image.size[1] < former
 
 

@@ -23,7 +23,7 @@ def skin_material():
 
 
 def skin_node():
-    (node,) = (n for n in skin_material().node_tree.nodes if n.bl_idname == "ShaderNodeGroup")
+    (node,) = (n for n in skin_material().node_tree.nodes if "Surface" in n.outputs)
     return node
 
 
@@ -117,7 +117,8 @@ def test_more_melanin_or_blood_is_a_state_with_more(
     obj = tan_object(table_path, SHARES)
     apply_timed(obj)
     add_camera((len(SHARES) / 2, 0.5, 5.0), len(SHARES))
-    skin_node().inputs[name].default_value = factor
+    (detail,) = (node for node in skin_material().node_tree.nodes if "Relief" in node.inputs)
+    detail.inputs[name].default_value = factor
     bpy.context.scene.frame_set(100)
     day = FIRST_DAY + (100 - FIRST_FRAME) * DAYS_PER_FRAME
     states = simulated(table, SHARES.clip(0.0, 1.0), day)

@@ -1,0 +1,194 @@
+"""Relief and unevenness of skin: a node group that brings pores, fine lines and blotches.
+
+It works on any mesh, with or without UV maps, in millimetres of the mesh at rest. One smooth noise
+makes both: fine lines run where it is at its mean, pores lie where it is highest. (Cells of a
+Voronoi diagram look alike and take twice the time.) Unevenness goes into melanin and blood, never
+into a colour: so it tans.
+"""
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from . import nodes
+from .changes import Changes
+from .ownership import is_local
+from .plan import Role
+
+DETAIL_KEY = "skin_tan_detail"
+"""Custom property of the group, and of a node in a material that shows it."""
+
+INPUTS = {
+    "Relief": (1.0, 4.0, "Depth of pores and fine lines over that of usual skin; 0 is smooth"),
+    "Variation": (1.0, 4.0, "Unevenness of melanin and blood over that of usual skin; 0 is even"),
+    "Melanin": (1.0, 100.0, "Melanin over that of the tan: 1 leaves it, 0 is skin without any"),
+    "Blood": (1.0, 100.0, "Blood over that of the skin: 1 leaves it, 2 is a flush"),
+    "Millimetre": (0.001, 1e6, "Length of a millimetre in scene units"),
+}
+SIZE = "Size"
+OUTPUTS = {
+    "Normal": ("NodeSocketVector", "For the input Normal of the tan"),
+    "Melanin": ("NodeSocketFloat", "For the input Melanin of the tan"),
+    "Blood": ("NodeSocketFloat", "For the input Blood of the tan"),
+}
+
+LINES_PER_MILLIMETRE = 0.7
+"""Frequency of the noise, which has lines and pores about a millimetre apart, as face and arms."""
+
+SECTION = (
+    (0.0, 0.9),
+    (0.36, 0.85),
+    (0.43, 0.6),
+    (0.48, 0.0),
+    (0.53, 0.6),
+    (0.62, 1.0),
+    (0.80, 0.0),
+)
+"""Height over the noise: a line at its mean, the skin between lines, a pore where it is highest."""
+
+DEPTH_MILLIMETRES = 0.1
+"""Depth of a pore and of a line; measured fine lines of the arm are .02 to .1 mm deep."""
+
+MELANIN_RANGE, BLOOD_RANGE = (0.80, 1.20), (0.6, 1.6)
+"""Factors from the palest to the darkest and from the palest to the most flushed blotch."""
+
+
+def _noise(label: str, location: tuple[int, int], per_millimetre: float, detail: float) -> Role:
+    inputs = {"Scale": per_millimetre, "Detail": detail}
+    return Role("ShaderNodeTexNoise", label, location, {}, inputs)
+
+
+def _math(operation: str, label: str, location: tuple[int, int], *values: float | None) -> Role:
+    inputs = {place: value for place, value in enumerate(values) if value is not None}
+    return Role("ShaderNodeMath", label, location, {"operation": operation}, inputs)
+
+
+def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) -> Role:
+    # Noise of one octave is .25 to .75 nearly everywhere.
+    inputs = {"From Min": 0.25, "From Max": 0.75, "To Min": ends[0] - 1.0, "To Max": ends[1] - 1.0}
+    return Role("ShaderNodeMapRange", label, location, {"clamp": True}, inputs)
+
+
+ROLES = {
+    "input": Role("NodeGroupInput", "", (-1000, 0)),
+    "rest": Role("ShaderNodeTexCoord", "Place on the mesh at rest", (-1000, 300)),
+    "millimetres": Role(
+        "ShaderNodeVectorMath", "Place in mm", (-800, 200), {"operation": "MULTIPLY"}
+    ),
+    "texture": _noise("Pores and lines", (-550, 300), LINES_PER_MILLIMETRE, 0.0),
+    "section": Role("ShaderNodeFloatCurve", "Section of lines and pores", (-350, 300)),
+    "height": _math("MULTIPLY", "Height in mm", (50, 250), None, DEPTH_MILLIMETRES),
+    "deep": _math("MULTIPLY", "Relief", (250, 250)),
+    "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
+    "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
+    "pigment_factor": _factor("More or less melanin", (-300, -250), MELANIN_RANGE),
+    "melanin": _math("MULTIPLY_ADD", "Melanin", (250, -250), None, None, 1.0),
+    "more_melanin": _math("MULTIPLY", "Melanin in all", (450, -250)),
+    "vessels": _noise("Blotches of blood", (-550, -500), 0.05, 0.0),
+    "vessels_factor": _factor("More or less blood", (-300, -500), BLOOD_RANGE),
+    "blood": _math("MULTIPLY_ADD", "Blood", (250, -500), None, None, 1.0),
+    "more_blood": _math("MULTIPLY", "Blood in all", (450, -500)),
+    "output": Role("NodeGroupOutput", "", (700, 0)),
+}
+
+LINKS: tuple[tuple[str, str | int, str, str | int], ...] = (
+    ("rest", "Generated", "millimetres", 0),
+    ("input", SIZE, "millimetres", 1),
+    *(
+        ("millimetres", "Vector", texture, "Vector")
+        for texture in ("texture", "pigment", "vessels")
+    ),
+    ("texture", "Fac", "section", "Value"),
+    ("section", "Value", "height", 0),
+    ("height", "Value", "deep", 0),
+    ("input", "Relief", "deep", 1),
+    ("deep", "Value", "bump", "Height"),
+    ("input", "Millimetre", "bump", "Distance"),
+    ("bump", "Normal", "output", "Normal"),
+    ("pigment", "Fac", "pigment_factor", "Value"),
+    ("pigment_factor", "Result", "melanin", 0),
+    ("input", "Variation", "melanin", 1),
+    ("melanin", "Value", "more_melanin", 0),
+    ("input", "Melanin", "more_melanin", 1),
+    ("more_melanin", "Value", "output", "Melanin"),
+    ("vessels", "Fac", "vessels_factor", "Value"),
+    ("vessels_factor", "Result", "blood", 0),
+    ("input", "Variation", "blood", 1),
+    ("blood", "Value", "more_blood", 0),
+    ("input", "Blood", "more_blood", 1),
+    ("more_blood", "Value", "output", "Blood"),
+)
+
+
+def add_detail(tree: Any, skin: Any) -> None:
+    """Put the group into a material's tree, before the node that shows the tan."""
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree, node.width, node[DETAIL_KEY] = _shared_group(), 200, True
+    node.location = (skin.location[0] - 300, skin.location[1])
+    for name in OUTPUTS:
+        tree.links.new(node.outputs[name], skin.inputs[name])
+
+
+def set_size(trees: list[Any], obj: bpy.types.Object, scene_unit: float, changes: Changes) -> None:
+    """Tell the detail in an object's materials how large the object is.
+
+    Parameters
+    ----------
+    trees
+        Of the object alone.
+    scene_unit : float
+        Length of a scene unit in metres.
+    """
+    mesh: Any = obj.data
+    size = 2000.0 * scene_unit * np.array(mesh.texspace_size) * np.abs(_scale(obj))
+    for tree in trees:
+        for node in tree.nodes:
+            if node.get(DETAIL_KEY) and node.inputs.get(SIZE) is not None:
+                changes.set(node.inputs[SIZE], "default_value", tuple(size))
+                changes.set(node.inputs["Millimetre"], "default_value", 0.001 / scene_unit)
+
+
+def _scale(obj: bpy.types.Object) -> np.ndarray:
+    return np.array(obj.matrix_world.to_scale())
+
+
+def _shared_group() -> bpy.types.NodeTree:
+    """The group of this file, which serves all objects: their sizes are inputs."""
+    for group in bpy.data.node_groups:
+        if DETAIL_KEY in group and is_local(group):
+            return group
+    return _new_group()
+
+
+def _new_group() -> bpy.types.NodeTree:
+    group: Any = bpy.data.node_groups.new("Skin Detail", "ShaderNodeTree")
+    for name, (default, most, says) in INPUTS.items():
+        socket = group.interface.new_socket(
+            name, description=says, in_out="INPUT", socket_type="NodeSocketFloat"
+        )
+        socket.default_value, socket.min_value, socket.max_value = default, 0.0, most
+    size = group.interface.new_socket(
+        SIZE,
+        description="Size of the mesh at rest in mm",
+        in_out="INPUT",
+        socket_type="NodeSocketVector",
+    )
+    size.default_value = (1000.0, 1000.0, 1000.0)
+    for name, (kind, says) in OUTPUTS.items():
+        group.interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
+    made = {role: nodes.new_node(group, role, ROLES) for role in ROLES}
+    nodes.link(group, ROLES, LINKS)
+    _draw(made["section"].mapping)
+    group[DETAIL_KEY] = True
+    return group
+
+
+def _draw(mapping: Any) -> None:
+    """Draw the section of lines and pores into a curve, which has two points at first."""
+    curve = mapping.curves[0]
+    for place, height in SECTION[2:]:
+        curve.points.new(place, height)
+    for point, (place, height) in zip(curve.points, SECTION, strict=True):
+        point.location = (place, height)
+    mapping.update()

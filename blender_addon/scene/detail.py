@@ -50,7 +50,7 @@ SECTION = (
 DEPTH_MILLIMETRES = 0.1
 """Depth of a pore and of a line; measured fine lines of the arm are .02 to .1 mm deep."""
 
-MELANIN_RANGE, BLOOD_RANGE = (0.80, 1.20), (0.6, 1.6)
+MELANIN_RANGE, BLOOD_RANGE = (0.88, 1.14), (0.6, 1.6)
 """Factors from the palest to the darkest and from the palest to the most flushed blotch."""
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from . import nodes
 from .changes import Changes
 from .ownership import is_local
-from .plan import Role
+from .plan import Link, Role, math_role
 
 DETAIL_KEY = "skin_tan_detail"
 """Custom property of the group, and of a node in a material that shows it."""
@@ -48,7 +48,7 @@ SECTION = (
 """Height over the noise: a line at its mean, the skin between lines, a pore where it is highest."""
 
 DEPTH_MILLIMETRES = 0.1
-"""Depth of a pore and of a line; measured fine lines of the arm are .02 to .1 mm deep."""
+"""Depth of a pore and of a line, by eye."""
 
 MELANIN_RANGE, BLOOD_RANGE = (0.88, 1.14), (0.6, 1.6)
 """Factors from the palest to the darkest and from the palest to the most flushed blotch."""
@@ -57,11 +57,6 @@ MELANIN_RANGE, BLOOD_RANGE = (0.88, 1.14), (0.6, 1.6)
 def _noise(label: str, location: tuple[int, int], per_millimetre: float, detail: float) -> Role:
     inputs = {"Scale": per_millimetre, "Detail": detail}
     return Role("ShaderNodeTexNoise", label, location, {}, inputs)
-
-
-def _math(operation: str, label: str, location: tuple[int, int], *values: float | None) -> Role:
-    inputs = {place: value for place, value in enumerate(values) if value is not None}
-    return Role("ShaderNodeMath", label, location, {"operation": operation}, inputs)
 
 
 def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) -> Role:
@@ -78,21 +73,21 @@ ROLES = {
     ),
     "texture": _noise("Pores and lines", (-550, 300), LINES_PER_MILLIMETRE, 0.0),
     "section": Role("ShaderNodeFloatCurve", "Section of lines and pores", (-350, 300)),
-    "height": _math("MULTIPLY", "Height in mm", (50, 250), None, DEPTH_MILLIMETRES),
-    "deep": _math("MULTIPLY", "Relief", (250, 250)),
+    "height": math_role("MULTIPLY", "Height in mm", (50, 250), at_1=DEPTH_MILLIMETRES),
+    "deep": math_role("MULTIPLY", "Relief", (250, 250)),
     "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
     "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
     "pigment_factor": _factor("More or less melanin", (-300, -250), MELANIN_RANGE),
-    "melanin": _math("MULTIPLY_ADD", "Melanin", (250, -250), None, None, 1.0),
-    "more_melanin": _math("MULTIPLY", "Melanin in all", (450, -250)),
+    "melanin": math_role("MULTIPLY_ADD", "Melanin", (250, -250), at_2=1.0),
+    "more_melanin": math_role("MULTIPLY", "Melanin in all", (450, -250)),
     "vessels": _noise("Blotches of blood", (-550, -500), 0.05, 0.0),
     "vessels_factor": _factor("More or less blood", (-300, -500), BLOOD_RANGE),
-    "blood": _math("MULTIPLY_ADD", "Blood", (250, -500), None, None, 1.0),
-    "more_blood": _math("MULTIPLY", "Blood in all", (450, -500)),
+    "blood": math_role("MULTIPLY_ADD", "Blood", (250, -500), at_2=1.0),
+    "more_blood": math_role("MULTIPLY", "Blood in all", (450, -500)),
     "output": Role("NodeGroupOutput", "", (700, 0)),
 }
 
-LINKS: tuple[tuple[str, str | int, str, str | int], ...] = (
+LINKS: tuple[Link, ...] = (
     ("rest", "Generated", "millimetres", 0),
     ("input", SIZE, "millimetres", 1),
     *(
@@ -141,16 +136,13 @@ def set_size(trees: list[Any], obj: bpy.types.Object, scene_unit: float, changes
         Length of a scene unit in metres.
     """
     mesh: Any = obj.data
-    size = 2000.0 * scene_unit * np.array(mesh.texspace_size) * np.abs(_scale(obj))
+    scale = np.abs(np.array(obj.matrix_world.to_scale()))
+    size = 2000.0 * scene_unit * np.array(mesh.texspace_size) * scale
     for tree in trees:
         for node in tree.nodes:
             if node.get(DETAIL_KEY) and node.inputs.get(SIZE) is not None:
                 changes.set(node.inputs[SIZE], "default_value", tuple(size))
                 changes.set(node.inputs["Millimetre"], "default_value", 0.001 / scene_unit)
-
-
-def _scale(obj: bpy.types.Object) -> np.ndarray:
-    return np.array(obj.matrix_world.to_scale())
 
 
 def _shared_group() -> bpy.types.NodeTree:
@@ -163,11 +155,7 @@ def _shared_group() -> bpy.types.NodeTree:
 
 def _new_group() -> bpy.types.NodeTree:
     group: Any = bpy.data.node_groups.new("Skin Detail", "ShaderNodeTree")
-    for name, (default, most, says) in INPUTS.items():
-        socket = group.interface.new_socket(
-            name, description=says, in_out="INPUT", socket_type="NodeSocketFloat"
-        )
-        socket.default_value, socket.min_value, socket.max_value = default, 0.0, most
+    nodes.add_inputs(group, INPUTS)
     size = group.interface.new_socket(
         SIZE,
         description="Size of the mesh at rest in mm",
@@ -175,11 +163,10 @@ def _new_group() -> bpy.types.NodeTree:
         socket_type="NodeSocketVector",
     )
     size.default_value = (1000.0, 1000.0, 1000.0)
-    for name, (kind, says) in OUTPUTS.items():
-        group.interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
-    made = {role: nodes.new_node(group, role, ROLES) for role in ROLES}
-    nodes.link(group, ROLES, LINKS)
-    _draw(made["section"].mapping)
+    nodes.add_outputs(group, OUTPUTS)
+    nodes.complete(group, ROLES, ROLES, LINKS)
+    for node in nodes.of_role(group, "section"):
+        _draw(node.mapping)
     group[DETAIL_KEY] = True
     return group
 

@@ -15,7 +15,7 @@ import bpy
 from hylios.errors import InputError
 
 from .changes import Changes
-from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES, Role
+from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES, Link, Role
 
 # Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
 RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
@@ -193,36 +193,49 @@ def add_sockets(group: Any) -> list[str]:
     """Give a group those inputs and outputs that it lacks; the names of new inputs."""
     interface = group.interface
     present = {(item.in_out, item.name) for item in interface.items_tree if hasattr(item, "in_out")}
-    added = [name for name in INPUTS if ("INPUT", name) not in present]
-    for name in added:
-        default, most, says = INPUTS[name]
-        socket = interface.new_socket(
-            name, description=says, in_out="INPUT", socket_type="NodeSocketFloat"
-        )
+    added = {name: given for name, given in INPUTS.items() if ("INPUT", name) not in present}
+    for socket in add_inputs(group, added):
         socket.subtype = "FACTOR"
-        socket.min_value, socket.max_value = 0.0, most
-        socket.default_value = default
     if ("INPUT", "Normal") not in present:
         normal = interface.new_socket("Normal", in_out="INPUT", socket_type="NodeSocketVector")
         normal.hide_value = True
-    for name, (kind, says) in OUTPUTS.items():
-        if ("OUTPUT", name) not in present:
-            interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
-    return added
+    lacking = {name: given for name, given in OUTPUTS.items() if ("OUTPUT", name) not in present}
+    add_outputs(group, lacking)
+    return list(added)
 
 
-def complete(group: Any, made: Collection[str]) -> None:
-    """Make the nodes of some roles and their links, other than into what is linked already."""
-    for role in made:
-        new_node(group, role)
-    link(group, made)
+def add_inputs(group: Any, inputs: Mapping[str, tuple[float, float, str]]) -> list[Any]:
+    """New inputs of a group by name: default, largest value and what they are; the least is 0."""
+    made = []
+    for name, (default, most, says) in inputs.items():
+        socket = group.interface.new_socket(
+            name, description=says, in_out="INPUT", socket_type="NodeSocketFloat"
+        )
+        socket.min_value, socket.max_value = 0.0, most
+        socket.default_value = default
+        made.append(socket)
+    return made
 
 
-def link(
+def add_outputs(group: Any, outputs: Mapping[str, tuple[str, str]]) -> None:
+    """New outputs of a group by name: type and what they are."""
+    for name, (kind, says) in outputs.items():
+        group.interface.new_socket(name, description=says, in_out="OUTPUT", socket_type=kind)
+
+
+def complete(
     group: Any,
     made: Collection[str],
-    links: Sequence[tuple[str, str | int, str, str | int]] = LINKS,
+    roles: Mapping[str, Role] = ROLES,
+    links: Sequence[Link] = LINKS,
 ) -> None:
+    """Make the nodes of some roles and their links, other than into what is linked already."""
+    for role in made:
+        new_node(group, role, roles)
+    link(group, made, links)
+
+
+def link(group: Any, made: Collection[str], links: Sequence[Link] = LINKS) -> None:
     """Link nodes of some roles as a plan has it, other than into what is linked already."""
     present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
     for source, output, target, socket in links:

@@ -28,6 +28,10 @@ MOST_BASE = (0.999, 0.999, 0.999)
 """What a base colour is cut to; with more than 1 a shader would make light."""
 
 
+Link = tuple[str, str | int, str, str | int]
+"""From a role and its output to a role and its input."""
+
+
 @dataclass(frozen=True)
 class Role:
     """A kind of node in the group.
@@ -57,7 +61,8 @@ def _image(label: str, location: tuple[int, int]) -> Role:
     return Role("ShaderNodeTexImage", label, location, values)
 
 
-def _math(operation: str, label: str, location: tuple[int, int], **inputs: float) -> Role:
+def math_role(operation: str, label: str, location: tuple[int, int], **inputs: float) -> Role:
+    """A node of arithmetic; `at_1` is the value of its input 1."""
     numbered = {int(name.removeprefix("at_")): value for name, value in inputs.items()}
     return Role("ShaderNodeMath", label, location, {"operation": operation}, numbered)
 
@@ -94,15 +99,15 @@ with the angle of view."""
 
 ROLES = {
     "mask": Role("ShaderNodeAttribute", "Share", (-1600, 250), {"attribute_type": "GEOMETRY"}),
-    "share": _math("MAXIMUM", "Share or all", (-1400, 250)),
+    "share": math_role("MAXIMUM", "Share or all", (-1400, 250)),
     "day": Role(
         "ShaderNodeAttribute",
         "Day",
         (-1400, 0),
         {"attribute_type": "OBJECT", "attribute_name": DAY_PROPERTY},
     ),
-    "column": _math("MULTIPLY_ADD", "Share to column", (-1200, 250)),
-    "row": _math("MULTIPLY_ADD", "Day to row", (-1200, 0)),
+    "column": math_role("MULTIPLY_ADD", "Share to column", (-1200, 250)),
+    "row": math_role("MULTIPLY_ADD", "Day to row", (-1200, 0)),
     "columns": _image("Columns of shares", (-1000, 250)),
     "rows": _image("Rows of days", (-1000, -50)),
     "column_place": Role("ShaderNodeSeparateXYZ", "Column", (-700, 250)),
@@ -111,15 +116,15 @@ ROLES = {
     "states": _image("States", (-300, 150)),
     "state": Role("ShaderNodeSeparateXYZ", "Melanin, thickness, blood", (0, 150)),
     "input": Role("NodeGroupInput", "", (-200, 500)),
-    "melanin": _math("EXPONENT", "Melanin", (200, 300)),
-    "more_melanin": _math("MULTIPLY", "More or less melanin", (350, 300)),
-    "root": _math("SQRT", "Root of melanin", (500, 300)),
-    "least_blood": _math("MAXIMUM", "Some blood", (0, -100), at_1=0.001),
-    "more_blood": _math("LOGARITHM", "Logarithm of blood", (200, -100), at_1=2.718281828),
-    "blood": _math("ADD", "More or less blood", (350, -100)),
-    "look_column": _math("MULTIPLY_ADD", "Melanin to column", (500, 150)),
+    "melanin": math_role("EXPONENT", "Melanin", (200, 300)),
+    "more_melanin": math_role("MULTIPLY", "More or less melanin", (350, 300)),
+    "root": math_role("SQRT", "Root of melanin", (500, 300)),
+    "least_blood": math_role("MAXIMUM", "Some blood", (0, -100), at_1=0.001),
+    "more_blood": math_role("LOGARITHM", "Logarithm of blood", (200, -100), at_1=2.718281828),
+    "blood": math_role("ADD", "More or less blood", (350, -100)),
+    "look_column": math_role("MULTIPLY_ADD", "Melanin to column", (500, 150)),
     "look_row": _range("Blood to row", (500, -100)),
-    "thickness": _math("MULTIPLY_ADD", "Thin to thick", (500, -350)),
+    "thickness": math_role("MULTIPLY_ADD", "Thin to thick", (500, -350)),
     "look_place": Role("ShaderNodeCombineXYZ", "Place in look", (700, 150)),
     "thick_place": _vector(
         "MULTIPLY_ADD",
@@ -153,10 +158,12 @@ ROLES = {
     "near_base": _vector("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
     "far_base": _vector("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
     "radius": Role("ShaderNodeValue", "Width to radius", (2000, -100)),
-    "dryness": _math("MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0),
-    "sharper": _math("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
+    "dryness": math_role(
+        "MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0
+    ),
+    "sharper": math_role("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
     "given": _vector("LENGTH", "Length of the given normal", (1900, -300)),
-    "without": _math("LESS_THAN", "No normal given", (2050, -300), at_1=0.5),
+    "without": math_role("LESS_THAN", "No normal given", (2050, -300), at_1=0.5),
     "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
     "own_normal": _vector("SCALE", "Normal of the mesh or none", (2050, -500)),
     "normal": _vector("ADD", "Normal", (2200, -400)),
@@ -173,7 +180,7 @@ SHADERS = frozenset(
 )
 """Roles that nobody needs where an artist has put another shader in place of ours."""
 
-LINKS: tuple[tuple[str, str | int, str, str | int], ...] = (
+LINKS: tuple[Link, ...] = (
     ("mask", "Fac", "share", 0),
     ("share", "Value", "column", 0),
     ("day", "Fac", "row", 0),

@@ -6,10 +6,11 @@ Blender runs in a process of its own (`scenes`); `shots` says what it renders.
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -87,16 +88,31 @@ def tasks(effort: Effort) -> dict[str, Task]:
     InputError
         If there is no Blender.
     """
-    if find_spec("bpy") is None:
-        raise InputError("figures 6.24 to 6.29 need Blender's Python module bpy.")
     wanted = of_figures(effort.wanted(FIGURES))
-
-    def work(tick: Tick) -> list[Result]:
-        with tempfile.TemporaryDirectory() as folder:
-            return rendered(wanted, Path(folder), effort, tick)
-
     skins = len(_colour_tables(wanted))
-    return {"renders": Task(work, skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted))}
+    return rendering(
+        "figures 6.24 to 6.29",
+        lambda folder, tick: rendered(wanted, folder, effort, tick),
+        skins * TABLE_AS_LONG + PICTURE_AS_LONG * len(wanted),
+    )
+
+
+def rendering(figures: str, work: Callable[[Path, Tick], list[Any]], size: int) -> dict[str, Task]:
+    """One task that renders in a folder of its own.
+
+    Raises
+    ------
+    InputError
+        If there is no Blender.
+    """
+    if find_spec("bpy") is None:
+        raise InputError(f"{figures} need Blender's Python module bpy.")
+
+    def in_folder(tick: Tick) -> list[Any]:
+        with tempfile.TemporaryDirectory() as folder:
+            return work(Path(folder), tick)
+
+    return {"renders": Task(in_folder, size)}
 
 
 def rendered(

@@ -5,19 +5,16 @@ Blender renders it in a process of its own (`spectral_scenes`).
 """
 
 import json
-import tempfile
 from collections.abc import Mapping, Sequence
-from importlib.util import find_spec
 from pathlib import Path
 
 from examples.figures import report
 from examples.figures.light import Effort, Task, Tick
 from examples.figures.render_sheet import Panel, sheet
-from examples.figures.renders import PICTURE_AS_LONG, run_blender
+from examples.figures.renders import PICTURE_AS_LONG, rendering, run_blender
 from examples.figures.spectral_claims import CLAIMS, Seen, pseudo_colour
 from examples.figures.spectral_looks import look
 from examples.figures.spectral_shots import LIGHT, SpectralShot, of_figures, said_of
-from hylios.errors import InputError
 
 FIGURES = ("6.9", "6.10", "6.11", "6.12", "6.19", "6.20")
 
@@ -41,15 +38,12 @@ def tasks(effort: Effort) -> dict[str, Task]:
     InputError
         If there is no Blender.
     """
-    if find_spec("bpy") is None:
-        raise InputError("figures 6.9 to 6.12, 6.19 and 6.20 need Blender's Python module bpy.")
     wanted = of_figures(effort.wanted(FIGURES))
-
-    def work(tick: Tick) -> list[Seen]:
-        with tempfile.TemporaryDirectory() as folder:
-            return rendered(wanted, Path(folder), effort, tick)
-
-    return {"renders": Task(work, PICTURE_AS_LONG * len(wanted))}
+    return rendering(
+        "figures 6.9 to 6.12, 6.19 and 6.20",
+        lambda folder, tick: rendered(wanted, folder, effort, tick),
+        PICTURE_AS_LONG * len(wanted),
+    )
 
 
 def rendered(

@@ -32,8 +32,27 @@ SLACK = 0.01
 CIEDE2000 at most."""
 
 
+class _Grid:
+    """What axes of either kind have in common: knots, and states at them."""
+
+    knots: tuple[np.ndarray, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of knots on each axis."""
+        return tuple(len(axis) for axis in self.knots)
+
+    def states(self, coordinates: np.ndarray) -> np.ndarray:
+        """States (..., numbers) at coordinates (..., axes)."""
+        raise NotImplementedError
+
+    def knot_states(self) -> np.ndarray:
+        """States at all knots, shape (*shape, numbers)."""
+        return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
+
+
 @dataclass(frozen=True)
-class StateAxes:
+class StateAxes(_Grid):
     """Principal axes of four numbers, as tables of format 3 have them; blood is passed over.
 
     A state's coordinates are the logarithm of the ratio of its first four numbers to the untanned
@@ -50,11 +69,6 @@ class StateAxes:
     basis: np.ndarray
     knots: tuple[np.ndarray, ...]
 
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of knots on each axis."""
-        return tuple(len(axis) for axis in self.knots)
-
     def coordinates(self, states: np.ndarray) -> np.ndarray:
         """Coordinates (..., K) of states (..., 4) or (..., 5).
 
@@ -69,13 +83,9 @@ class StateAxes:
         """States (..., 4) at coordinates (..., K)."""
         return self.untanned * np.exp(coordinates @ self.basis.T)
 
-    def knot_states(self) -> np.ndarray:
-        """States at all knots, shape (*shape, 4)."""
-        return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
-
 
 @dataclass(frozen=True)
-class LookAxes:
+class LookAxes(_Grid):
     """Four axes of what changes a skin's look: melanin, thickness, spread and blood.
 
     The first, second and last coordinate are the natural logarithms of a state's total melanin,
@@ -102,11 +112,6 @@ class LookAxes:
     bend: np.ndarray
     knots: tuple[np.ndarray, ...]
     bounded: bool = False
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of knots on each axis."""
-        return tuple(len(axis) for axis in self.knots)
 
     def coordinates(self, states: np.ndarray) -> np.ndarray:
         """Coordinates (..., 4) of states (..., 4), whose blood is the untanned skin's, or (..., 5).
@@ -141,10 +146,6 @@ class LookAxes:
             ],
             axis=-1,
         )
-
-    def knot_states(self) -> np.ndarray:
-        """States at all knots, shape (*shape, 5)."""
-        return self.states(np.stack(np.meshgrid(*self.knots, indexing="ij"), axis=-1))
 
     def hold(self, states: np.ndarray) -> NDArray[np.bool_]:
         """Whether states (..., 4) or (..., 5) lie within the outermost knots, bool (...).

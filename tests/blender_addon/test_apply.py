@@ -195,7 +195,8 @@ def test_not_a_mesh():
     refused("'Empty' is of type EMPTY; select a mesh object")
 
 
-def test_linked_objects_are_refused(body, tmp_path):
+def linked_body(tmp_path):
+    """The body, linked into an empty scene from the file that it was saved in."""
     path = tmp_path / "library.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -203,6 +204,11 @@ def test_linked_objects_are_refused(body, tmp_path):
         wanted.objects = ["Body"]
     linked = bpy.data.objects["Body"]
     bpy.context.collection.objects.link(linked)
+    return linked
+
+
+def test_linked_objects_are_refused(body, tmp_path):
+    linked = linked_body(tmp_path)
     bpy.context.view_layer.objects.active = linked
     refused("The object 'Body' is linked from another file")
 
@@ -222,13 +228,7 @@ def test_linked_animation_is_refused(body, tmp_path):
 
 
 def test_an_override_is_called_so(body, tmp_path):
-    path = tmp_path / "library.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    with bpy.data.libraries.load(str(path), link=True) as (_, wanted):
-        wanted.objects = ["Body"]
-    linked = bpy.data.objects["Body"]
-    bpy.context.collection.objects.link(linked)
+    linked = linked_body(tmp_path)
     override = linked.override_create(remap_local_usages=True)
     bpy.context.view_layer.objects.active = override
     refused("The object 'Body' is a library override")

@@ -32,8 +32,9 @@ def stopped_at(number: int, obj) -> bool:
     def trace(frame, event, argument):
         nonlocal count
         path = frame.f_code.co_filename.replace("\\", "/")
-        # What undoes the changes, or ends them, is not interrupted.
-        if not any(room in path for room in ROOMS) or frame.f_code.co_name == "__exit__":
+        # What undoes the changes, or ends them, is not interrupted, nor what is called for that.
+        names = {frame.f_code.co_name, frame.f_back.f_code.co_name}
+        if not any(room in path for room in ROOMS) or "__exit__" in names:
             return None
         # Python comes back to the line of the `with` on its way to `__exit__`.
         is_with = frame.f_code.co_name == "apply_tan" and frame.f_lineno == WITH_LINE

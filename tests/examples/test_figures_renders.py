@@ -33,9 +33,7 @@ from lut_builder.exr_writer import write_table
 from lut_builder.settings import Settings
 
 STAND_IN = ("--stand-in", "--scale", "0.12", "--samples", "32")
-COARSE = Settings(
-    knots=(3,), bands=(), profile_error=0.1, profile_wavelengths=4, profile_states=8
-)
+COARSE = Settings(knots=(3,), bands=(), profile_error=0.1, profile_wavelengths=4, profile_states=8)
 """Enough for the path; nobody looks at the colours."""
 
 

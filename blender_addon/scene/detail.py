@@ -1,9 +1,10 @@
 """Relief and unevenness of skin: a node group that brings pores, fine lines and blotches.
 
 It works on any mesh, with or without UV maps, in millimetres of the mesh at rest. One smooth noise
-makes both: fine lines run where it is at its mean, pores lie where it is highest. (Cells of a
-Voronoi diagram look alike and take twice the time.) Unevenness goes into melanin and blood, never
-into a colour: so it tans.
+makes the relief: fine lines run where it is at its mean, others across the mesh and bent by it, so
+that they cross as those of skin do; pores lie where it is highest. (Lines that never cross look
+like worms, cells of a Voronoi diagram like leather; a second noise takes longer.) Unevenness goes
+into melanin and blood, never into a colour: so it tans.
 """
 
 from typing import Any
@@ -33,22 +34,18 @@ OUTPUTS = {
     "Blood": ("NodeSocketFloat", "For the input Blood of the tan"),
 }
 
-LINES_PER_MILLIMETRE = 0.7
-"""Frequency of the noise, which has lines and pores about a millimetre apart, as face and arms."""
+LINES_PER_MILLIMETRE = 1.1
+"""Frequency of the noise, which has lines less than a millimetre apart."""
 
-SECTION = (
-    (0.0, 0.9),
-    (0.36, 0.85),
-    (0.43, 0.6),
-    (0.48, 0.0),
-    (0.53, 0.6),
-    (0.62, 1.0),
-    (0.80, 0.0),
-)
-"""Height over the noise: a line at its mean, the skin between lines, a pore where it is highest."""
+ACROSS, BENT = (0.62, 0.48, 0.62), 1.0
+"""Lines across the mesh: their number in a millimetre along the axes, and by how many the noise
+moves them."""
 
-DEPTH_MILLIMETRES = 0.1
-"""Depth of a pore and of a line, by eye."""
+LINE, PORE = 0.09, (0.62, 0.8)
+"""How far from its mean the noise is where a line begins; the noise at a pore's edge and in it."""
+
+LINE_MILLIMETRES, PORE_MILLIMETRES = 0.04, 0.045
+"""Depth of a line and of a pore, by eye."""
 
 MELANIN_RANGE, BLOOD_RANGE = (0.88, 1.14), (0.6, 1.6)
 """Factors from the palest to the darkest and from the palest to the most flushed blotch."""
@@ -65,16 +62,37 @@ def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) ->
     return Role("ShaderNodeMapRange", label, location, {"clamp": True}, inputs)
 
 
+def _smooth(
+    label: str, location: tuple[int, int], ends: tuple[float, float], values: tuple[float, float]
+) -> Role:
+    inputs = {"From Min": ends[0], "From Max": ends[1], "To Min": values[0], "To Max": values[1]}
+    return Role("ShaderNodeMapRange", label, location, {"interpolation_type": "SMOOTHSTEP"}, inputs)
+
+
 ROLES = {
     "input": Role("NodeGroupInput", "", (-1000, 0)),
     "rest": Role("ShaderNodeTexCoord", "Place on the mesh at rest", (-1000, 300)),
     "millimetres": Role(
         "ShaderNodeVectorMath", "Place in mm", (-800, 200), {"operation": "MULTIPLY"}
     ),
-    "texture": _noise("Pores and lines", (-550, 300), LINES_PER_MILLIMETRE, 0.0),
-    "section": Role("ShaderNodeFloatCurve", "Section of lines and pores", (-350, 300)),
-    "height": math_role("MULTIPLY", "Height in mm", (50, 250), at_1=DEPTH_MILLIMETRES),
-    "deep": math_role("MULTIPLY", "Relief", (250, 250)),
+    "texture": _noise("Pores and lines", (-800, 400), LINES_PER_MILLIMETRE, 0.0),
+    "across": Role(
+        "ShaderNodeVectorMath",
+        "Lines across the mesh",
+        (-800, 650),
+        {"operation": "DOT_PRODUCT"},
+        {1: ACROSS},
+    ),
+    "bent": math_role("MULTIPLY_ADD", "Bent by the noise", (-600, 550), at_1=BENT),
+    "lines": math_role("PINGPONG", "Highest at lines", (-400, 600), at_1=0.5),
+    "other_lines": math_role("PINGPONG", "Highest at other lines", (-400, 400), at_1=0.5),
+    "all_lines": math_role("SMOOTH_MAX", "Lines that cross", (-200, 500), at_2=0.04),
+    "between_lines": _smooth(
+        "Height between lines in mm", (0, 500), (0.5 - LINE, 0.5), (LINE_MILLIMETRES, 0.0)
+    ),
+    "pores": _smooth("Depth of pores in mm", (0, 200), PORE, (0.0, PORE_MILLIMETRES)),
+    "height": math_role("SUBTRACT", "Height in mm", (150, 350)),
+    "deep": math_role("MULTIPLY", "Relief", (300, 250)),
     "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
     "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
     "pigment_factor": _factor("More or less melanin", (-300, -250), MELANIN_RANGE),
@@ -94,8 +112,17 @@ LINKS: tuple[Link, ...] = (
         ("millimetres", "Vector", texture, "Vector")
         for texture in ("texture", "pigment", "vessels")
     ),
-    ("texture", "Fac", "section", "Value"),
-    ("section", "Value", "height", 0),
+    ("millimetres", "Vector", "across", 0),
+    ("texture", "Fac", "bent", 0),
+    ("across", "Value", "bent", 2),
+    ("texture", "Fac", "lines", 0),
+    ("bent", "Value", "other_lines", 0),
+    ("texture", "Fac", "pores", "Value"),
+    ("lines", "Value", "all_lines", 0),
+    ("other_lines", "Value", "all_lines", 1),
+    ("all_lines", "Value", "between_lines", "Value"),
+    ("between_lines", "Result", "height", 0),
+    ("pores", "Result", "height", 1),
     ("height", "Value", "deep", 0),
     ("input", "Relief", "deep", 1),
     ("deep", "Value", "bump", "Height"),
@@ -165,17 +192,5 @@ def _new_group() -> bpy.types.NodeTree:
     size.default_value = (1000.0, 1000.0, 1000.0)
     nodes.add_outputs(group, OUTPUTS)
     nodes.complete(group, ROLES, ROLES, LINKS)
-    for node in nodes.of_role(group, "section"):
-        _draw(node.mapping)
     group[DETAIL_KEY] = True
     return group
-
-
-def _draw(mapping: Any) -> None:
-    """Draw the section of lines and pores into a curve, which has two points at first."""
-    curve = mapping.curves[0]
-    for place, height in SECTION[2:]:
-        curve.points.new(place, height)
-    for point, (place, height) in zip(curve.points, SECTION, strict=True):
-        point.location = (place, height)
-    mapping.update()

@@ -7,6 +7,7 @@ import pytest
 
 COMMANDS = [
     "demo",
+    pytest.param("gallery", marks=pytest.mark.slow),
     *(
         pytest.param(command, marks=pytest.mark.slow)
         for command in ("bench", "simplifications", "simplifications.quadrature")

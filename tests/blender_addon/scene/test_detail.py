@@ -95,7 +95,8 @@ def test_relief_shows_under_a_lamp_and_hardly_changes_the_mean(square, tmp_path)
     even = seen(tmp_path)
     set_sliders(square, 1.0, 0.0, 0.0)
     rough = seen(tmp_path)
-    assert rough.std(axis=0).min() > 1.5 * even.std(axis=0).max()
+    # Even skin has the noise of light that scatters, most in red.
+    assert np.all(rough.std(axis=0) > 1.5 * even.std(axis=0))
     np.testing.assert_allclose(rough.mean(axis=0), even.mean(axis=0), rtol=0.15)
 
 

@@ -1,0 +1,76 @@
+"""What the gallery shows: places, distances, lights and skins. Needs no Blender."""
+
+from dataclasses import dataclass
+
+SKINS = ("I", "III", "VI")
+
+SUN = 5.0
+"""Minimal tanning doses, on day 0, so that all skins tan alike."""
+
+SHOWN_DAY, LAST_DAY = 8, 30
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A part of the body of `examples.demo.body`, in metres.
+
+    Attributes
+    ----------
+    target : Vector
+        Centre of the picture.
+    away : Vector
+        Direction from there to the camera.
+    """
+
+    name: str
+    target: Vector
+    away: Vector
+
+
+PLACES = (
+    Place("face", (0.012, -0.125, 1.487), (0.42, -1.0, 0.06)),
+    Place("shoulder", (0.115, -0.02, 1.335), (0.9, -0.85, 0.55)),
+    Place("hand", (0.292, -0.225, 0.835), (1.0, -0.5, 0.25)),
+)
+
+DISTANCES = {"arm's length": 0.65, "20 cm": 0.20}
+"""Metres from the skin to the camera."""
+
+LENS, SENSOR = 50.0, 24.0
+"""In mm; the sensor's height is that of the square picture."""
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """A round lamp.
+
+    Attributes
+    ----------
+    turned, up : float
+        Degrees from the camera's direction to the right, and above the horizon.
+    size : float
+        Diameter in metres, at a distance of 1 m.
+    power : float
+        What a white surface that faces it would reflect.
+    """
+
+    turned: float
+    up: float
+    size: float
+    power: float
+
+
+@dataclass(frozen=True)
+class Light:
+    """Lamps, and even light from all around."""
+
+    lamps: tuple[Lamp, ...]
+    around: float
+
+
+LIGHTS = {
+    "window": Light((Lamp(-50.0, 30.0, 0.7, 1.2), Lamp(125.0, 20.0, 0.5, 0.35)), 0.18),
+    "sun": Light((Lamp(50.0, 45.0, 0.06, 1.5), Lamp(-140.0, 30.0, 0.5, 0.25)), 0.20),
+}

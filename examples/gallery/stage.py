@@ -1,0 +1,88 @@
+"""One tanned body in Blender, and pictures of its places in some light."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+import numpy as np
+import OpenImageIO as oiio  # noqa: N813
+from mathutils import Vector
+
+from examples.demo import render, scene
+from examples.gallery import shots
+
+LAMP_DISTANCE = 1.0
+
+
+def tanned(subject: scene.Subject, skin: str) -> bpy.types.Object:
+    """The subject in an empty scene, after its day in the sun, with a new material's own look."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    shown = bpy.context.scene
+    obj = bpy.data.objects.new(subject.name, scene.subdivided(subject))
+    shown.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    scene.add_mask(obj.data, subject.cloth)
+    settings = obj.skin_tan
+    settings.skin, settings.mask_attribute = skin, scene.MASK
+    exposure = settings.exposures.add()
+    exposure.unit, exposure.multiple = "MMD", shots.SUN
+    settings.first_day, settings.last_day = 0.0, shots.LAST_DAY
+    settings.first_frame, settings.last_frame = 0, shots.LAST_DAY
+    bpy.ops.skin_tan.apply()
+    return obj
+
+
+def pictures(samples: int, size: int, scratch: Path) -> Iterator[tuple[str, str, str, np.ndarray]]:
+    """Place, distance and light of all pictures of the object in the scene, and their pixels."""
+    shown = bpy.context.scene
+    render.prepare(shown)
+    shown.cycles.max_bounces = 4  # light between fingers, and between nose and cheek
+    shown.render.resolution_x = shown.render.resolution_y = size
+    shown.view_settings.view_transform = "Standard"
+    quality = render.Quality(samples, 100, "HIGH")
+    for name, light in shots.LIGHTS.items():
+        for place in shots.PLACES:
+            for far, metres in shots.DISTANCES.items():
+                _clear()
+                _aim(place, metres)
+                for lamp in light.lamps:
+                    _light(place, lamp)
+                shown.world = scene.backdrop(light=light.around)
+                render.picture(shown, shots.SHOWN_DAY, quality, scratch)
+                yield place.name, far, name, _read(scratch)
+
+
+def _read(path: Path) -> np.ndarray:
+    """The picture (rows, columns, 3) in a file, sRGB from 0 to 1."""
+    return oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)[..., :3]
+
+
+def _clear() -> None:
+    for obj in [item for item in bpy.data.objects if item.type in ("CAMERA", "LIGHT")]:
+        bpy.data.objects.remove(obj)
+
+
+def _aim(place: shots.Place, metres: float) -> None:
+    camera = bpy.data.cameras.new("Camera")
+    camera.lens, camera.clip_start = shots.LENS, 0.01
+    camera.sensor_fit, camera.sensor_height = "VERTICAL", shots.SENSOR
+    away = Vector(place.away).normalized()
+    bpy.context.scene.camera = _placed(camera, place, away, metres)
+
+
+def _light(place: shots.Place, lamp: shots.Lamp) -> None:
+    light = bpy.data.lights.new("Lamp", "AREA")
+    light.shape, light.size = "DISK", lamp.size
+    light.energy = lamp.power * np.pi**2 * LAMP_DISTANCE**2
+    x, y, _ = place.away
+    angle, up = np.arctan2(y, x) + np.radians(lamp.turned), np.radians(lamp.up)
+    away = Vector((np.cos(angle) * np.cos(up), np.sin(angle) * np.cos(up), np.sin(up)))
+    _placed(light, place, away, LAMP_DISTANCE)
+
+
+def _placed(data, place: shots.Place, away: Vector, metres: float) -> bpy.types.Object:
+    obj = bpy.data.objects.new(data.name, data)
+    obj.location = Vector(place.target) + metres * away
+    obj.rotation_euler = away.to_track_quat("Z", "Y").to_euler()
+    bpy.context.scene.collection.objects.link(obj)
+    return obj

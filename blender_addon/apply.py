@@ -12,6 +12,7 @@ from .scene import attributes, detail, first_version, images, layout_1, material
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.plan import LOOK
+from .views import keep_view, remember_source
 
 
 def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
@@ -46,11 +47,13 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
             (settings.first_frame, settings.last_frame),
         )
         replaced = nodes.update(skin.group, sampled, changes)
+        remember_source(skin.group, settings, values, tan, changes)
+        in_view = keep_view(skin.group, changes)
         said = skin.attach(obj, changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
-        return " ".join([said, *_remarks(obj, skin, values, tan), *_on_kept(kept)])
+        return " ".join([said, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)])
 
 
 def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:

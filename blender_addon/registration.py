@@ -14,10 +14,14 @@ def register():
         bpy.utils.register_class(cls)
     objects: Any = bpy.types.Object
     objects.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
+    scenes: Any = bpy.types.Scene
+    scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
 
 
 def unregister():
     objects: Any = bpy.types.Object
     del objects.skin_tan
+    scenes: Any = bpy.types.Scene
+    del scenes.skin_tan
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -108,33 +108,95 @@ def look(table: SkinTable, minimal: MinimalDoses) -> Look:
             f"the table has no plane {COLOUR}, which the skin's material needs; it has "
             f"{', '.join(table.planes)}."
         )
-    spread = spread_of(melanin_dynamics(table.provenance), mmd=minimal.mmd, med=minimal.med)
-    melanin, thickness, blood = _ranges(table, spread)
-    roots = _roots(*np.exp(np.divide(melanin, 2.0)))
-    rows = np.linspace(*blood, BLOOD_ROWS if blood[1] > blood[0] else 1)
-    u = 2.0 * np.log(roots)
-    reached = np.interp(u, spread.least, spread.thicknesses)
-    planes = _thin_and_thick(table, spread, u, reached, thickness, rows)
-    usual = np.clip((0.5 * reached - thickness[0]) / (thickness[1] - thickness[0]), 0.0, 1.0)
+    grid = grid_of(table, minimal)
+    planes = grid.planes(table, _wanted(table))
+    thin, thick = grid.thickness
+    usual = np.clip((0.5 * grid.reached - thin) / (thick - thin), 0.0, 1.0)
     colour = planes[COLOUR]
-    roughness = _roughness(table)
+    roughness = roughness_of(table)
     bend, bow = _by_angle(planes, roughness)
     near, far = _near_and_far(planes)
     level = 1.0 / float(let_through(roughness, NORMAL_ANGLE))
     return Look(
-        colour=_image(colour),
+        colour=over_states(colour),
         bend=_image_between(bend, usual),
         bow=_image_between(bow, usual),
         near=_image_between(near, usual),
         far=_image_between(far, usual),
-        melanin=(float(roots[0]), float(roots[-1])),
-        blood=blood,
-        thickness=thickness,
+        melanin=grid.melanin,
+        blood=grid.blood,
+        thickness=grid.thickness,
         level=level,
         near_weight=_near_weight(level * colour, near),
         roughness=roughness,
         has_profile=FAR in planes or WIDTH in planes,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Where the images of a look lie in a table.
+
+    Attributes
+    ----------
+    spread : Spread
+        Of the skin's kinetics.
+    roots : (columns,) array
+        Square roots of the relative melanin.
+    reached : (columns,) array
+        v that skin reaches with so much melanin.
+    thickness, blood : pairs of float
+        v of thin and thick skin; b at the first and the last row.
+    """
+
+    spread: Spread
+    roots: NDArray[np.float64]
+    reached: NDArray[np.float64]
+    thickness: tuple[float, float]
+    blood: tuple[float, float]
+
+    @property
+    def melanin(self) -> tuple[float, float]:
+        """Square root of the relative melanin at the first and last column."""
+        return float(self.roots[0]), float(self.roots[-1])
+
+    def planes(self, table: SkinTable, names: list[str]) -> dict[str, NDArray[np.float64]]:
+        """Planes (M, 2, B, components) over melanin, the thinnest and the thickest skin, and blood.
+
+        Skin with little melanin gets only so thick. What lies straight between it and thin skin
+        decides the look of the thickest, which is never reached there.
+        """
+        thin, thick = self.thickness
+        u = 2.0 * np.log(self.roots)
+        b = np.linspace(*self.blood, BLOOD_ROWS if self.blood[1] > self.blood[0] else 1)
+        as_thick = np.clip(self.reached, min(thin + LEAST_SPAN, thick), thick)
+        v = np.stack([np.full_like(u, thin), as_thick], axis=1)
+        states = self.spread.states(
+            *np.broadcast_arrays(
+                u[:, None, None], np.minimum(v, self.reached[:, None])[..., None], b[None, None]
+            )
+        )
+        states[..., 3] = np.exp(v)[..., None]
+        planes = table.lookup(states, names)
+        further = ((thick - thin) / (as_thick - thin))[:, None, None]
+        for values in planes.values():
+            values[:, 1] = np.maximum(values[:, 0] + further * (values[:, 1] - values[:, 0]), 0.0)
+        return planes
+
+
+def grid_of(table: SkinTable, minimal: MinimalDoses) -> Grid:
+    """The grid of a table along the states of its kinetics.
+
+    Raises
+    ------
+    InputError
+        If the table does not say how its skin makes melanin.
+    """
+    spread = spread_of(melanin_dynamics(table.provenance), mmd=minimal.mmd, med=minimal.med)
+    melanin, thickness, blood = _ranges(table, spread)
+    roots = _roots(*np.exp(np.divide(melanin, 2.0)))
+    reached = np.interp(2.0 * np.log(roots), spread.least, spread.thicknesses)
+    return Grid(spread, roots, reached, thickness, blood)
 
 
 def _roots(low: float, high: float) -> NDArray[np.float64]:
@@ -144,35 +206,6 @@ def _roots(low: float, high: float) -> NDArray[np.float64]:
         step = (1.0 - low) / np.ceil((1.0 - low) / step)
     roots = low + step * np.arange(int(np.ceil((high - low) / step - 1e-9)) + 1)
     return np.asarray(roots, dtype=float)
-
-
-def _thin_and_thick(
-    table: SkinTable,
-    spread: Spread,
-    u: NDArray,
-    reached: NDArray,
-    thickness: tuple[float, float],
-    b: NDArray,
-) -> dict[str, NDArray[np.float64]]:
-    """Planes (M, 2, B, components) over u (M,), the thinnest and the thickest skin, and b (B,).
-
-    Skin with little melanin gets only so thick: v (M,) is reached. What lies straight between it
-    and thin skin decides the look of the thickest, which is never reached there.
-    """
-    thin, thick = thickness
-    as_thick = np.clip(reached, min(thin + LEAST_SPAN, thick), thick)
-    v = np.stack([np.full_like(u, thin), as_thick], axis=1)
-    states = spread.states(
-        *np.broadcast_arrays(
-            u[:, None, None], np.minimum(v, reached[:, None])[..., None], b[None, None]
-        )
-    )
-    states[..., 3] = np.exp(v)[..., None]
-    planes = table.lookup(states, _wanted(table))
-    further = ((thick - thin) / (as_thick - thin))[:, None, None]
-    for values in planes.values():
-        values[:, 1] = np.maximum(values[:, 0] + further * (values[:, 1] - values[:, 0]), 0.0)
-    return planes
 
 
 def _wanted(table: SkinTable) -> list[str]:
@@ -202,7 +235,7 @@ def _ranges(table: SkinTable, spread: Spread) -> tuple[tuple[float, float], ...]
     return melanin, thickness, blood
 
 
-def _roughness(table: SkinTable) -> float:
+def roughness_of(table: SkinTable) -> float:
     """A shader's roughness for the slopes of a skin's surface, of which the table tells."""
     parameters = table.provenance.get("specimen_parameters", {})
     ratio = parameters.get("surface_fold_aspect_ratio")
@@ -245,7 +278,7 @@ def _near_weight(base: NDArray, near: NDArray) -> float:
     return float(np.clip(near.mean(), low, max(low, high)))
 
 
-def _image(values: NDArray) -> NDArray[np.float32]:
+def over_states(values: NDArray) -> NDArray[np.float32]:
     """Two halves of numbers over melanin, two thicknesses and blood (M, 2, B, 3)."""
     thin, thick = values[:, 0], values[:, 1, ::-1]
     return np.concatenate([thin, thick], axis=1).swapaxes(0, 1).astype(np.float32)

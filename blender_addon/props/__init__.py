@@ -1,8 +1,16 @@
 """What an artist sets on an object."""
 
 from .exposure import SkinTanExposure
-from .object import SkinTanSettings, settings_of
+from .object import SkinTanSettings, settings_of, table_file
+from .scene import SkinTanScene
 
-__all__ = ["CLASSES", "SkinTanExposure", "SkinTanSettings", "settings_of"]
+__all__ = [
+    "CLASSES",
+    "SkinTanExposure",
+    "SkinTanScene",
+    "SkinTanSettings",
+    "settings_of",
+    "table_file",
+]
 
-CLASSES = (SkinTanExposure, SkinTanSettings)
+CLASSES = (SkinTanExposure, SkinTanSettings, SkinTanScene)

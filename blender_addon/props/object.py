@@ -36,6 +36,27 @@ def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
     return cast(Any, obj).skin_tan
 
 
+def table_file(skin: str, table_path: str) -> Path:
+    """Path of a skin's table; `table_path` counts for skin FILE alone.
+
+    Raises
+    ------
+    InputError
+        If none is set, if its file is not there, or if this add-on lacks the skin.
+    """
+    if skin != FILE:
+        return shipped_path(skin)
+    if not table_path:
+        raise InputError("No table is set: choose the path of a skin table (an EXR file).")
+    path = Path(bpy.path.abspath(table_path))
+    try:
+        path.stat()
+    except (OSError, ValueError) as error:  # a name may hold what no file's can
+        why = getattr(error, "strerror", None) or error
+        raise InputError(f"the table {table_path} cannot be read: {why}.") from error
+    return path
+
+
 class SkinTanSettings(bpy.types.PropertyGroup):
     skin: EnumProperty(
         name="Skin",
@@ -149,17 +170,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         InputError
             If none is set, if its file is not there, or if this add-on lacks the skin.
         """
-        if self.skin != FILE:
-            return shipped_path(self.skin)
-        if not self.table_path:
-            raise InputError("No table is set: choose the path of a skin table (an EXR file).")
-        path = Path(bpy.path.abspath(self.table_path))
-        try:
-            path.stat()
-        except (OSError, ValueError) as error:  # a name may hold what no file's can
-            why = getattr(error, "strerror", None) or error
-            raise InputError(f"the table {self.table_path} cannot be read: {why}.") from error
-        return path
+        return table_file(self.skin, self.table_path)
 
     def own_doses(self) -> MinimalDoses | None:
         """Minimal doses where they are set by hand.

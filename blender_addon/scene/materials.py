@@ -220,3 +220,11 @@ def _add_slot(obj: bpy.types.Object, changes: Changes) -> str:
     if not sharing:
         return ""
     return f" Slots belong to the mesh, so {names(sharing)} got an empty one."
+
+
+def shown_groups(obj: bpy.types.Object) -> Iterator[bpy.types.NodeTree]:
+    """Tan groups that an object's materials show, each once, at any depth."""
+    materials = dict.fromkeys(slot.material for slot in obj.material_slots if slot.material)
+    if remembered(obj).material is not None:
+        materials[remembered(obj).material] = None  # geometry nodes may show it
+    yield from dict.fromkeys(group for one in materials for group in _tan_groups(_tree(one)))

@@ -2,5 +2,6 @@
 
 from .exposures import SKIN_TAN_UL_exposures
 from .panel import VIEW3D_PT_skin_tan
+from .view import VIEW3D_PT_skin_tan_view
 
-CLASSES = (SKIN_TAN_UL_exposures, VIEW3D_PT_skin_tan)
+CLASSES = (SKIN_TAN_UL_exposures, VIEW3D_PT_skin_tan, VIEW3D_PT_skin_tan_view)

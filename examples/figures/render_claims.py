@@ -9,7 +9,8 @@ from examples.figures.render_results import Result
 from examples.figures.render_sheet import Panel, Panels
 from examples.figures.shots import UV
 from examples.figures.tans import Schedule, history
-from hylios.lab.colour import TINTS, difference, lab, linear_of_srgb, srgb
+from hylios.lab.colour import difference, lab, linear_of_srgb, srgb
+from hylios.pseudo_colour import TINTS
 
 NEAR = 2.0
 """How near in L* a render is to come to its table; what the shader's surface keeps out is 1."""

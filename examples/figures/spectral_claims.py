@@ -9,7 +9,8 @@ import numpy as np
 from examples.figures import report
 from examples.figures.spectral_looks import VISIBLE
 from examples.figures.spectral_shots import WET_FROM, SpectralShot
-from hylios.lab.colour import TINTS, linear_of_srgb, srgb
+from hylios.lab.colour import linear_of_srgb, srgb
+from hylios.pseudo_colour import TINTS
 
 ULTRAVIOLET_ENDS = 400.0
 IDENTICAL = 0.05

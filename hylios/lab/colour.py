@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
+from hylios.pseudo_colour import TINTS
 
 # It warns that it cannot plot without matplotlib, and has numpy print as it did in 2017.
 with warnings.catch_warnings(), np.printoptions():
@@ -19,10 +20,6 @@ STEP_NM = 5.0
 
 BANDS = {"uv": (250.0, 400.0), "visible": (400.0, 700.0), "ir": (700.0, 2500.0)}
 """First and last wavelength in nm of the regions of section 6.1.3."""
-
-TINTS = {"uv": (0.72, 0.60, 1.0), "ir": (1.0, 0.66, 0.60)}
-"""Linear Rec.709 of a swatch of reflectance 1. The thesis prints no tint: violet and red, for the
-end of the visible that is nearer, are this project's choice."""
 
 
 @cache

@@ -62,7 +62,7 @@ def smooth_table(pigmentation: str = "intermediate") -> SkinTable:
     planes = {
         "subsurface_colour": colour,
         "total_colour": colour + 0.047,
-        "band_reflectance": np.broadcast_to(0.5, colour.shape),
+        "band_reflectance": 0.06 + colour[..., [2, 0, 1]] * [0.4, 1.2, 0.5],
         "near_share": np.broadcast_to(NEAR_SHARE, colour.shape),
         "far_width": UNTANNED_WIDTH * np.sqrt(states[..., 3:4]),
     }

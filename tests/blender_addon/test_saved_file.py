@@ -5,6 +5,7 @@ import sys
 
 import bpy
 import numpy as np
+import pytest
 from scenes import add_camera, add_mask, read_pixels, render, tan_object, white_world
 
 FRAMES = (1, 90)
@@ -26,7 +27,8 @@ assert not {"blender_addon", "hylios", "lut_builder"} & set(sys.modules)
 """
 
 
-def test_the_render_needs_no_add_on(tmp_path, table_path):
+@pytest.mark.parametrize("view", ["VISIBLE", "NM365"])
+def test_the_render_needs_no_add_on(tmp_path, table_path, view):
     settings = tan_object(table_path).skin_tan
     bpy.ops.mesh.primitive_monkey_add()
     body = bpy.context.object
@@ -34,6 +36,7 @@ def test_the_render_needs_no_add_on(tmp_path, table_path):
     body.skin_tan.exposures.add().dose = 30.0
     add_mask(body, [1.0 if vertex.co.x > 0 else 0.0 for vertex in body.data.vertices])
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    bpy.context.scene.skin_tan.view = view
     white_world()
     add_camera((0.0, 0.0, 5.0), 3.0)
     inside = [render(tmp_path / f"inside{frame}.exr", **size(frame)) for frame in FRAMES]

@@ -13,7 +13,7 @@ import blender_addon.apply as module
 from blender_addon.scene import changes
 
 FILE = Path(__file__).parents[1] / "data" / "first_version.blend"
-ROOMS = ("blender_addon/scene/", "blender_addon/apply.py")
+ROOMS = ("blender_addon/scene/", "blender_addon/apply.py", "blender_addon/views.py")
 COLLECTIONS = ("images", "materials", "node_groups", "actions", "meshes", "objects")
 
 
@@ -25,6 +25,13 @@ class StoppedError(Exception):
     """What a test raises."""
 
 
+def is_in_exit(frame) -> bool:
+    """Whether changes are undone or ended here: that is not interrupted."""
+    while frame is not None and frame.f_code.co_name != "__exit__":
+        frame = frame.f_back
+    return frame is not None
+
+
 def stopped_at(number: int, obj) -> bool:
     """Apply with an exception before the n-th line of the add-on's; whether it came so far."""
     count = 0
@@ -32,9 +39,7 @@ def stopped_at(number: int, obj) -> bool:
     def trace(frame, event, argument):
         nonlocal count
         path = frame.f_code.co_filename.replace("\\", "/")
-        # What undoes the changes, or ends them, is not interrupted, nor what is called for that.
-        names = {frame.f_code.co_name, frame.f_back.f_code.co_name}
-        if not any(room in path for room in ROOMS) or "__exit__" in names:
+        if not any(room in path for room in ROOMS) or is_in_exit(frame):
             return None
         # Python comes back to the line of the `with` on its way to `__exit__`.
         is_with = frame.f_code.co_name == "apply_tan" and frame.f_lineno == WITH_LINE

@@ -7,7 +7,7 @@ import pytest
 from scenes import tan_object
 
 from blender_addon.model import catalogue, doses
-from blender_addon.ui import exposures, panel
+from blender_addon.ui import exposures, panel, view
 from lut_builder.exr_writer import write_table
 
 ICONS = {
@@ -46,10 +46,13 @@ class Layout:
         assert name in data.bl_rna.properties and items in collection.bl_rna.properties
         assert icon in ICONS
 
-    def operator(self, name, *, text=None, icon="NONE"):
+    def operator(self, name, *, text=None, icon="NONE", depress=False):
         assert icon in ICONS
         module, function = name.split(".")
-        getattr(getattr(bpy.ops, module), function).get_rna_type()
+        properties = getattr(getattr(bpy.ops, module), function).get_rna_type().properties
+        if depress:
+            self.labels.append(f"[{text}]")
+        return Properties(properties)
 
     def template_list(self, kind, identifier, data, name, active_data, active_name, *, rows):
         assert hasattr(bpy.types, kind)
@@ -60,14 +63,24 @@ class Layout:
             )
 
 
+class Properties:
+    """Values of an operator's button; refuses those that it has not."""
+
+    def __init__(self, properties):
+        object.__setattr__(self, "properties", properties)
+
+    def __setattr__(self, name, value):
+        assert value in self.properties[name].enum_items
+
+
 class Panel:
     def __init__(self, labels):
         self.layout = Layout(labels)
 
 
-def drawn() -> list[str]:
+def drawn(kind=panel.VIEW3D_PT_skin_tan) -> list[str]:
     labels: list[str] = []
-    panel.VIEW3D_PT_skin_tan.draw(Panel(labels), bpy.context)
+    kind.draw(Panel(labels), bpy.context)
     return labels
 
 
@@ -231,3 +244,14 @@ def test_every_shipped_skin_has_its_estimate():
     for shipped in catalogue.SHIPPED:
         bpy.context.object.skin_tan.skin = shipped.name
         assert any("(estimates)" in label for label in drawn())
+
+
+def test_the_view_of_the_file_is_pressed(table_path):
+    kind = view.VIEW3D_PT_skin_tan_view
+    assert drawn(kind) == ["[Visible]"]
+    obj = tan_object(table_path)
+    bpy.ops.skin_tan.apply()
+    bpy.ops.skin_tan.switch_view(view="NM1650")
+    assert drawn(kind) == ["[1650 nm]"]
+    del obj.skin_tan.group["skin_tan_view"]  # as skin that could not switch has it
+    assert drawn(kind)[1:] == ["This skin shows another view:", "press the button to see why"]

@@ -13,6 +13,7 @@ from hylios.errors import InputError
 from hylios.files import require_target, written_beside
 from hylios.lab import colour
 from hylios.lab.pictures import spectra_figure, swatches, write_figure
+from hylios.pseudo_colour import TINTS
 from hylios.readers.spectrum import NamedSpectrum, read_spectrum
 
 HEADER = "wavelength_nm,total,surface,subsurface,absorptance,standard_error"
@@ -49,12 +50,12 @@ def test_the_mean_over_a_band_is_that_of_the_line_between_the_points():
 def test_swatches_of_a_grey_are_grey_or_tinted():
     wavelengths, reflectance = np.array([250.0, 2500.0]), np.array([0.25, 0.25])
     assert colour.swatch(wavelengths, reflectance, "visible") == pytest.approx([0.25] * 3)
-    for band, tint in colour.TINTS.items():
+    for band, tint in TINTS.items():
         swatch = colour.swatch(wavelengths, reflectance, band)
         assert swatch == pytest.approx(0.25 * np.array(tint))
         assert max(tint) == 1.0
-    assert np.argmax(colour.TINTS["uv"]) == 2
-    assert np.argmax(colour.TINTS["ir"]) == 0
+    assert np.argmax(TINTS["uv"]) == 2
+    assert np.argmax(TINTS["ir"]) == 0
 
 
 def test_a_visible_swatch_does_not_see_beyond_its_band():
@@ -81,7 +82,7 @@ def test_the_command_writes_the_swatch_of_a_file(tmp_path, grey, capsys):
     assert np.all(pixels == code)
     infrared = tmp_path / "ir.png"
     assert main(["swatch", str(grey), "--band", "ir", "-o", str(infrared), "--size", "8"]) == 0
-    expected = np.round(255 * colour.srgb(0.25 * np.array(colour.TINTS["ir"])))
+    expected = np.round(255 * colour.srgb(0.25 * np.array(TINTS["ir"])))
     assert np.all(np.round(255 * imread(infrared)[..., :3]) == expected)
 
 

@@ -1,0 +1,86 @@
+"""Skin as a camera for the ultraviolet or the infrared shows it, as an image over its states."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hylios.errors import InputError
+from hylios.pseudo_colour import TINTS
+from hylios.table import MinimalDoses, SkinTable
+
+from .layer import let_through
+from .look import NORMAL_ANGLE, grid_of, over_states, roughness_of
+
+PLANE = "band_reflectance"
+
+
+@dataclass(frozen=True)
+class View:
+    """A view of skin in one band outside the visible.
+
+    Attributes
+    ----------
+    nm : float
+        Wavelength of the band.
+    tint : tuple of float
+        Linear Rec.709 of skin that reflects all light.
+    nearest : int
+        Channel of the visible that lies nearest. Tables tell for it alone how far light travels.
+    """
+
+    nm: float
+    tint: tuple[float, float, float]
+    nearest: int
+
+
+VISIBLE = "VISIBLE"
+VIEWS = {
+    "NM365": View(365.0, TINTS["uv"], 2),
+    "NM1100": View(1100.0, TINTS["ir"], 0),
+    "NM1650": View(1650.0, TINTS["ir"], 0),
+}
+"""Views by identifier, other than the visible."""
+
+
+@dataclass(frozen=True, eq=False)
+class BandLook:
+    """A skin in a view.
+
+    Attributes
+    ----------
+    colour : (rows, columns, 3) array
+        Tinted reflectance of the light that has been inside the skin, seen at 8 degrees, over
+        coordinates as `Look.colour`: the total less what the shader reflects at the surface.
+    melanin, blood, thickness : pairs of float
+        As those of `Look`.
+    """
+
+    colour: NDArray[np.float32]
+    melanin: tuple[float, float]
+    blood: tuple[float, float]
+    thickness: tuple[float, float]
+
+
+def band_look(table: SkinTable, minimal: MinimalDoses, view: View) -> BandLook:
+    """A table's skin in a view, along the states of its kinetics.
+
+    Raises
+    ------
+    InputError
+        If the table lacks the band, or does not say how its skin makes melanin.
+    """
+    bands = [float(nm) for nm in table.provenance.get("bands_nm", [])]
+    if PLANE not in table.planes or view.nm not in bands:
+        listed = ", ".join(f"{nm:g}" for nm in bands if PLANE in table.planes) or "none"
+        raise InputError(f"the table has no band at {view.nm:g} nm; its bands: {listed}")
+    grid = grid_of(table, minimal)
+    total = grid.planes(table, [PLANE])[PLANE][..., bands.index(view.nm)]
+    surface = 1.0 - float(let_through(roughness_of(table), NORMAL_ANGLE))
+    inside = np.maximum(total - surface, 0.0)
+    return BandLook(
+        colour=over_states(inside[..., None] * np.array(view.tint)),
+        melanin=grid.melanin,
+        blood=grid.blood,
+        thickness=grid.thickness,
+    )

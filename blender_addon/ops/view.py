@@ -1,0 +1,33 @@
+"""The buttons that switch the view."""
+
+from typing import Any, cast
+
+import bpy
+from bpy.props import EnumProperty
+
+from hylios.errors import InputError
+
+from ..props.scene import VIEW_ITEMS
+from ..views import switch_view
+
+
+class SKIN_TAN_OT_switch_view(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.switch_view"
+    bl_label = "Switch View"
+    bl_description = "Show all tanned skin of this file in one band of light"
+    bl_options = {"REGISTER", "UNDO"}
+
+    view: EnumProperty(name="View", description="Band of light", items=VIEW_ITEMS)
+
+    @classmethod
+    def description(cls, context, properties):
+        return next(says for name, _, says, _ in VIEW_ITEMS if name == properties.view)
+
+    def execute(self, context):
+        try:
+            message = switch_view(cast(Any, self).view)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, message)
+        return {"FINISHED"}

@@ -1,0 +1,240 @@
+"""Views of tanned skin in bands outside the visible: nodes put into a tan's group, and out again.
+
+Some of these nodes stand in for a link: what they replace is still linked to one of their inputs.
+So they can be taken out again, and all is as it was.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import bpy
+from mathutils import Color
+
+from hylios.errors import InputError
+
+from . import materials, nodes
+from .changes import Changes
+from .ownership import is_local
+from .plan import ROLE_KEY, Link, Role
+
+VIEW_KEY = "skin_tan_view"
+"""Custom property of scenes and of groups: the view that they show, if it is not the visible."""
+
+IMAGE_KEY = "skin_tan_view_image"
+"""Custom property of an image that was made for a view."""
+
+_IMAGE = {"interpolation": "Linear", "extension": "EXTEND"}
+ROLES = {
+    "view_thin": Role("ShaderNodeTexImage", "Band", (900, 1700), _IMAGE),
+    "view_thick": Role("ShaderNodeTexImage", "Band, thick skin", (900, 1400), _IMAGE),
+    "view_mixed": Role(
+        "ShaderNodeMix",
+        "By thickness",
+        (1200, 1600),
+        {"data_type": "RGBA", "clamp_factor": True},
+    ),
+    "view_colour": Role(
+        "ShaderNodeMix",
+        "Band for colour",
+        (1400, 1600),
+        {"data_type": "RGBA"},
+        {"Factor_Float": 1.0},
+    ),
+    "view_near": Role(
+        "ShaderNodeVectorMath", "One near share", (1400, 1400), {"operation": "DOT_PRODUCT"}
+    ),
+    "view_width": Role(
+        "ShaderNodeVectorMath", "One far width", (1400, 1250), {"operation": "DOT_PRODUCT"}
+    ),
+    "view_angle": Role(
+        "ShaderNodeVectorMath",
+        "Alike at all angles",
+        (1400, 1100),
+        {"operation": "MULTIPLY"},
+        {1: (0.0, 0.0, 0.0)},
+    ),
+    "view_tint": Role("ShaderNodeRGB", "Tint of the gloss", (1400, 950)),
+}
+LINKS: tuple[Link, ...] = (
+    ("look_place", "Vector", "view_thin", "Vector"),
+    ("thick_place", "Vector", "view_thick", "Vector"),
+    ("thickness", "Value", "view_mixed", "Factor_Float"),
+    ("view_thin", "Color", "view_mixed", "A_Color"),
+    ("view_thick", "Color", "view_mixed", "B_Color"),
+    ("view_mixed", "Result_Color", "view_colour", "B_Color"),
+    ("view_tint", "Color", "skin", "Specular Tint"),
+    ("view_tint", "Color", "near_skin", "Specular Tint"),
+)
+
+
+@dataclass(frozen=True)
+class StandIn:
+    """What a node of a view replaces: all that a node's output is linked to.
+
+    Attributes
+    ----------
+    role, output
+        Of the replaced node.
+    input, gives
+        Input that keeps the replaced output, and output that stands in for it.
+    but : str
+        Role of a node that goes on to show what is replaced.
+    """
+
+    role: str
+    output: str
+    input: str | int
+    gives: str
+    but: str = ""
+
+
+STAND_INS = {
+    "view_colour": StandIn("mixed_colour", "Result_Color", "A_Color", "Result_Color", "ratio"),
+    "view_near": StandIn("near", "Color", 0, "Value"),
+    "view_width": StandIn("width", "Color", 0, "Value"),
+    "view_angle": StandIn("slope", "Vector", 0, "Vector"),
+}
+
+
+@dataclass(frozen=True)
+class Band:
+    """A skin in a view.
+
+    Attributes
+    ----------
+    view : str
+        Identifier of the view.
+    image : Image
+        Tinted reflectance over the coordinates of the skin's look.
+    tint : tuple of float
+        Linear Rec.709.
+    nearest : int
+        Channel of the visible whose near share and far width count.
+    """
+
+    view: str
+    image: bpy.types.Image
+    tint: tuple[float, float, float]
+    nearest: int
+
+
+def shown_view(group: Any) -> str | None:
+    """The view that a tan's group shows, if it is not the visible."""
+    return group.get(VIEW_KEY)
+
+
+def view_of_file() -> str | None:
+    """The view that the file is in, if it is not the visible: all scenes share one."""
+    return next((scene[VIEW_KEY] for scene in bpy.data.scenes if VIEW_KEY in scene), None)
+
+
+def set_view_of_file(view: str | None, changes: Changes) -> None:
+    """Note the view in all scenes of the file."""
+    for scene in filter(is_local, bpy.data.scenes):
+        if view is not None:
+            changes.set_key(scene, VIEW_KEY, view)
+        elif VIEW_KEY in scene:
+            changes.at_the_end(partial(scene.pop, VIEW_KEY, None))
+
+
+def groups_of_file() -> dict[Any, list[bpy.types.Object]]:
+    """Tan groups that this file's objects show, and these objects; linked groups too."""
+    shown: dict[Any, list[bpy.types.Object]] = {}
+    for obj in filter(is_local, bpy.data.objects):
+        for group in materials.shown_groups(obj):
+            shown.setdefault(group, []).append(obj)
+    return shown
+
+
+def show(group: Any, band: Band, changes: Changes) -> None:
+    """Have a tan's group show a band in place of the visible, or another band.
+
+    Raises
+    ------
+    InputError
+        If it lacks nodes without which it cannot show a tan.
+    """
+    removed = nodes.missing_roles(group)
+    if removed:
+        raise InputError(f"nodes were removed from {group.name!r}: {', '.join(removed)}.")
+    lacking = [role for role in ROLES if not any(nodes.of_role(group, role))]
+    if lacking:
+        changes.may_add_to(group.nodes)
+        changes.may_relink(group)
+        nodes.complete(group, lacking, ROLES, LINKS)
+        for role in STAND_INS.keys() & set(lacking):
+            _stand_in(group, role)
+    for role, socket, value in (
+        ("view_near", 1, _unit_vector(band.nearest)),
+        ("view_width", 1, _unit_vector(band.nearest)),
+    ):
+        for node in nodes.of_role(group, role):
+            changes.set(nodes.find_input(node, socket), "default_value", value)
+    for node in nodes.of_role(group, "view_tint"):
+        tint = Color(band.tint).from_rec709_linear_to_scene_linear()
+        changes.set(node.outputs[0], "default_value", (*tint, 1.0))
+    for role in ("view_thin", "view_thick"):
+        for node in nodes.of_role(group, role):
+            changes.set(node, "image", band.image)
+    changes.set_key(group, VIEW_KEY, band.view)
+
+
+def hide(group: Any, changes: Changes) -> None:
+    """Have a tan's group show the visible again, when all else is done."""
+    changes.at_the_end(partial(_take_out, group))
+
+
+def remove_unused_images(changes: Changes) -> None:
+    """Remove images of views that nothing shows any more, when all else is done."""
+    changes.at_the_end(_remove_unused_images)
+
+
+def _unit_vector(channel: int) -> tuple[float, ...]:
+    return tuple(float(channel == other) for other in range(3))
+
+
+def _stand_in(group: Any, role: str) -> None:
+    """Put a new node into the links from what it replaces."""
+    plan = STAND_INS[role]
+    (node,) = nodes.of_role(group, role)
+    replaced = next(nodes.of_role(group, plan.role), None)
+    if replaced is None:
+        return
+    start = nodes.find_output(replaced, plan.output)
+    ends = [
+        link.to_socket
+        for link in start.links
+        if not plan.but or link.to_node.get(ROLE_KEY) != plan.but
+    ]
+    for end in ends:
+        group.links.new(nodes.find_output(node, plan.gives), end)
+    group.links.new(start, nodes.find_input(node, plan.input))
+
+
+def _take_out(group: Any) -> None:
+    for role, plan in STAND_INS.items():
+        for node in nodes.of_role(group, role):
+            _restore(group, nodes.find_input(node, plan.input), nodes.find_output(node, plan.gives))
+    for node in [node for role in ROLES for node in nodes.of_role(group, role)]:
+        group.nodes.remove(node)
+    group.pop(VIEW_KEY, None)
+
+
+def _restore(tree: Any, kept: Any, given: Any) -> None:
+    """Link what is linked to an input of a node to all that one of its outputs is linked to."""
+    ends = [link.to_socket for link in given.links]
+    for link in list(kept.links):
+        for end in ends:
+            tree.links.new(link.from_socket, end)
+
+
+def _remove_unused_images() -> None:
+    unused: Iterable[bpy.types.Image] = [
+        image
+        for image in bpy.data.images
+        if IMAGE_KEY in image and image.users == 0 and image.library is None
+    ]
+    for image in list(unused):
+        bpy.data.images.remove(image)

@@ -109,6 +109,7 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
         thickness=look.thickness,
         level=look.level,
         near_weight=look.near_weight,
+        through=look.through,
         roughness=look.roughness,
         has_profile=look.has_profile,
         first_day=history.first_day,

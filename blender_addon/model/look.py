@@ -16,7 +16,7 @@ from hylios.table import LOOK_AXES, LookAxes, SkinTable, melanin_dynamics
 from hylios.table.provenance import MinimalDoses
 from hylios.tanning.spread import Spread, spread_of
 
-from .layer import let_through
+from .layer import let_through, through_gloss
 
 COLUMNS, BLOOD_ROWS = 80, 10
 """Columns of melanin, and rows of blood for one thickness."""
@@ -70,6 +70,8 @@ class Look:
         The shader's base colour over `colour`, seen straight on.
     near_weight : float
         Weight, at most 1, of the shader that shows the near light: a skin's usual near share.
+    through : 4 floats
+        What the surface lets through by angle of view, as `layer.through_gloss` has it.
     roughness : float
         Of the surface, as a shader has it.
     has_profile : bool
@@ -86,6 +88,7 @@ class Look:
     thickness: tuple[float, float]
     level: float
     near_weight: float
+    through: tuple[float, float, float, float]
     roughness: float
     has_profile: bool
 
@@ -128,6 +131,7 @@ def look(table: SkinTable, minimal: MinimalDoses) -> Look:
         thickness=grid.thickness,
         level=level,
         near_weight=_near_weight(level * colour, near),
+        through=through_gloss(roughness),
         roughness=roughness,
         has_profile=FAR in planes or WIDTH in planes,
     )

@@ -22,7 +22,7 @@ MOVED = {
     "column": (0, "column_place", "X"),
     "row": (0, "row_place", "Y"),
     "colour": ("Color", "mixed_colour", "Result_Color"),
-    "skin": ("BSDF", "lobes", "Shader"),
+    "skin": ("BSDF", "light", "Shader"),
 }
 """Outputs of former nodes, and what gives the same today."""
 
@@ -102,7 +102,10 @@ def _is_base(end: Any) -> bool:
 
 
 def _share_with_near_skin(group: Any, changes: Changes) -> None:
-    """Give the second shader what the artist has given to the first, and both today's index."""
+    """Give the second shader what the artist has given to the first, and both today's index.
+
+    A diffuse shader can't have that, so both show their light then, whatever the gloss.
+    """
     skin = next(of_role(group, "skin"))
     near = next(of_role(group, "near_skin"))
     index = find_input(skin, "IOR")
@@ -116,5 +119,18 @@ def _share_with_near_skin(group: Any, changes: Changes) -> None:
             start = end.links[0].from_socket
             if start.node.get(ROLE_KEY) != "input":  # the plan links those
                 group.links.new(start, other)
+                _show_both(group)
         elif hasattr(end, "default_value"):
+            if _numbers(end) != _numbers(other):
+                _show_both(group)
             other.default_value = end.default_value
+
+
+def _show_both(group: Any) -> None:
+    for node in of_role(group, "two_lobes"):
+        node.inputs[1].default_value = -1.0
+
+
+def _numbers(end: Any) -> tuple:
+    value = end.default_value
+    return tuple(value) if hasattr(value, "__len__") else (value,)

@@ -66,6 +66,9 @@ class Sampled:
         Base colour of a shader over the colour, seen at 8 degrees.
     near_weight : float
         Of the shader that shows near light.
+    through : 4 floats
+        Share of light that the gloss lets through, by powers 0, 2, 3 and 4 of 1 less the cosine of
+        the angle of view.
     roughness : float
         Of the skin.
     has_profile : bool
@@ -85,6 +88,7 @@ class Sampled:
     thickness: tuple[float, float]
     level: float
     near_weight: float
+    through: tuple[float, float, float, float]
     roughness: float
     has_profile: bool
     first_day: float
@@ -290,6 +294,7 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         blood = _between((0.0, 1.0), half, half)
     low, high = (max(weight, 1e-6) for weight in (sampled.near_weight, 1.0 - sampled.near_weight))
     days = (sampled.first_day, sampled.last_day)
+    # Groups made before `two_lobes` have no link into the factor of `lobes` and `far_scaled`.
     return {
         "share": {1: 0.0 if sampled.mask_attribute else 1.0},
         "column": _between((0.0, 1.0), 0.5 / steps, 1.0 - 0.5 / steps),
@@ -302,6 +307,11 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "near_scaled": {"Scale": 1.0 / low if sampled.near_weight > 0.0 else 0.0},
         "far_scaled": {"Scale": 1.0 / high},
         "lobes": {0: 1.0 - sampled.near_weight},
+        "far_weight": {1: -sampled.near_weight},
+        "far_factor": {1: 1.0 / high - 1.0},
+        "cubic": {1: sampled.through[3], 2: sampled.through[2]},
+        "quadratic": {2: sampled.through[1]},
+        "through": {2: sampled.through[0]},
         "radius": {OUT: RADIUS_PER_MILLIMETRE / sampled.scene_unit},
     }
 

@@ -167,14 +167,29 @@ ROLES = {
     "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
     "own_normal": _vector("SCALE", "Normal of the mesh or none", (2050, -500)),
     "normal": _vector("ADD", "Normal", (2200, -400)),
+    # A second shader takes a fourth more time, so that where both would have one gloss the near
+    # light is that of a diffuse shader, whose colour takes account of the gloss.
+    "two_lobes": math_role("GREATER_THAN", "Whether one gloss is sharper", (1250, 900), at_1=0.0),
+    "far_weight": math_role("MULTIPLY_ADD", "Weight of far light", (1900, 700), at_2=1.0),
+    "far_factor": math_role("MULTIPLY_ADD", "Over that weight", (1900, 550), at_2=1.0),
+    "cubic": math_role("MULTIPLY_ADD", "Gloss by angle, last terms", (1250, 1100)),
+    "quadratic": math_role("MULTIPLY_ADD", "Gloss by angle, first terms", (1400, 1100)),
+    "square": math_role("MULTIPLY", "Square of the angle of view", (1400, 1250)),
+    "through": math_role("MULTIPLY_ADD", "What the gloss lets through", (1550, 1100)),
+    "one_lobe": math_role("SUBTRACT", "Whether there is one gloss", (1550, 900), at_0=1.0),
+    "beneath": math_role("MULTIPLY", "What one gloss lets through", (1700, 1000)),
+    "near_shown": _vector("SCALE", "Near light", (2150, 800)),
+    "near_light": Role("ShaderNodeBsdfDiffuse", "Near light beneath one gloss", (2350, 800)),
     "near_skin": _principled("Skin, near light", (2350, 0)),
     "skin": _principled("Skin", (2350, 500)),
     "lobes": Role("ShaderNodeMixShader", "Near and far light", (2700, 400)),
-    "output": Role("NodeGroupOutput", "", (2950, 300)),
+    "light": Role("ShaderNodeAddShader", "All light", (2900, 500)),
+    "output": Role("NodeGroupOutput", "", (3100, 300)),
 }
 
 SHADERS = frozenset(
-    "dryness sharper given without geometry own_normal normal "
+    "dryness sharper given without geometry own_normal normal two_lobes far_weight far_factor "
+    "cubic quadratic square through one_lobe beneath near_shown near_light light "
     "near_skin lobes near_base far_base near_scaled far_scaled near_part far_part base gain slope "
     "facing".split()
 )
@@ -250,7 +265,27 @@ LINKS: tuple[Link, ...] = (
     *(("input", "Specular", role, "Specular IOR Level") for role in ("skin", "near_skin")),
     ("near_skin", "BSDF", "lobes", 1),
     ("skin", "BSDF", "lobes", 2),
-    ("lobes", "Shader", "output", "Surface"),
+    ("input", "Oil", "two_lobes", 0),
+    ("two_lobes", "Value", "far_weight", 0),
+    ("two_lobes", "Value", "far_factor", 0),
+    ("far_weight", "Value", "lobes", 0),
+    ("far_factor", "Value", "far_scaled", "Scale"),
+    ("facing", "Facing", "cubic", 0),
+    ("cubic", "Value", "quadratic", 0),
+    ("facing", "Facing", "quadratic", 1),
+    *(("facing", "Facing", "square", number) for number in (0, 1)),
+    ("quadratic", "Value", "through", 0),
+    ("square", "Value", "through", 1),
+    ("two_lobes", "Value", "one_lobe", 1),
+    ("through", "Value", "beneath", 0),
+    ("one_lobe", "Value", "beneath", 1),
+    ("near_part", "Vector", "near_shown", 0),
+    ("beneath", "Value", "near_shown", "Scale"),
+    ("near_shown", "Vector", "near_light", "Color"),
+    ("normal", "Vector", "near_light", "Normal"),
+    ("lobes", "Shader", "light", 0),
+    ("near_light", "BSDF", "light", 1),
+    ("light", "Shader", "output", "Surface"),
     ("mixed_colour", "Result_Color", "output", "Colour"),
     ("width", "Color", "output", "Far Width"),
     ("ratio", "Vector", "output", "Ratio"),

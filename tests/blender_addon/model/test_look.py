@@ -19,7 +19,7 @@ from synthetic import (
 )
 
 from blender_addon.model import catalogue
-from blender_addon.model.layer import let_through
+from blender_addon.model.layer import let_through, through_gloss
 from blender_addon.model.look import look
 from hylios.lab.colour import difference
 from hylios.table import MinimalDoses, melanin_dynamics, minimal_doses
@@ -139,3 +139,13 @@ def test_pale_skin_needs_no_base_colour_above_1():
     )
     skin = look(pale, DOSES)
     require_bases_below_1(skin)
+
+
+@pytest.mark.parametrize("roughness", [0.1, 0.316, 0.5, 0.9])
+def test_what_a_gloss_lets_through_as_a_polynomial(roughness):
+    """Within the noise of what was measured, of which it is made."""
+    angles = np.array([0.0, 8.0, 30.0, 45.0, 60.0, 70.0])
+    x = 1.0 - np.cos(np.radians(angles))
+    powers = np.stack([x**power for power in (0, 2, 3, 4)], axis=1)
+    through = powers @ through_gloss(roughness)
+    assert through == pytest.approx(let_through(roughness, angles), abs=5e-4)

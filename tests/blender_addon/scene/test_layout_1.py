@@ -81,7 +81,15 @@ def test_what_the_artist_did_is_kept(body):
     for shader in (skin, of_role(body, "near_skin")):
         assert find_input(shader, "Coat Weight").default_value == pytest.approx(0.2)
         assert find_input(shader, "IOR").default_value == pytest.approx(1.5526)
+    # a coat lies over near light too, which a diffuse shader can't have
+    assert of_role(body, "two_lobes").inputs[1].default_value == -1.0
     assert {node.get(plan.ROLE_KEY) for node in group.nodes} == {*plan.ROLES, None}
+
+
+def test_a_shader_as_it_was_made_has_one_gloss_without_oil(body):
+    twin = bpy.data.objects["Twin"]
+    apply(twin)
+    assert of_role(twin, "two_lobes").inputs[1].default_value == 0.0
 
 
 def test_roughness_becomes_the_skin_s_where_nobody_set_it(body):

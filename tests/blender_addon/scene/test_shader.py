@@ -227,3 +227,21 @@ def test_profile_width_does_not_depend_on_the_unit_of_the_scene(table_path):
         apply_timed(obj)
         value = of_role(obj, "radius")
         assert value.outputs[0].default_value == pytest.approx(0.013069 * scale, rel=1e-4)
+
+
+def test_one_gloss_and_two_show_the_same_light(tmp_path, table_path):
+    """With so little oil that both lobes are as wide as one, which has a diffuse shader beside it:
+    from everywhere and from a lamp, straight on and aslant."""
+    tan_object(table_path)
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    tree = skin_material().node_tree
+    tree.nodes.remove(next(node for node in tree.nodes if "Relief" in node.inputs))
+    white_world()
+    bpy.ops.object.light_add(type="SUN", rotation=(0.9, 0.0, 0.0))
+    add_camera((0.5, 0.5, 5.0), 0.2)
+    for angle in (8.0, 45.0, 70.0):
+        seen = []
+        for oil in (0.0, 1e-6):
+            skin_node().inputs["Oil"].default_value = oil
+            seen.append(lit(angle, tmp_path))
+        assert difference(*seen) < 0.06

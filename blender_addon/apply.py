@@ -4,8 +4,9 @@ import bpy
 
 from hylios.errors import InputError, require_range
 
+from . import timing
 from .model import doses
-from .model.settings import TanSettings, check_frames
+from .model.settings import TanSettings
 from .model.tan import Tan, tan_of
 from .props import settings_of
 from .scene import attributes, detail, first_version, images, layout_1, materials, nodes, timeline
@@ -28,10 +29,11 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     obj = tannable(obj)
     settings = settings_of(obj)
     attributes.check_mask(obj, settings.mask_attribute)
-    check_frames(settings.first_frame, settings.last_frame)
     timeline.check_day_property(obj)
     unit = _scene_unit(scene)
     values = settings.values()
+    days = values.first_day, values.last_day
+    frames = timing.frames(settings, days, scene)
     tan = tan_of(values)
     with Changes() as changes:
         skin = materials.prepare(obj)
@@ -39,21 +41,16 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         layout_1.take_over(skin.group, skin.trees(), changes)
         made = nodes.made_images(skin.group)
         sampled = _sampled(tan, obj, unit)
-        timeline.key_days(
-            obj,
-            scene,
-            changes,
-            (values.first_day, values.last_day),
-            (settings.first_frame, settings.last_frame),
-        )
+        timed = timing.key(obj, scene, days, frames, changes)
         replaced = nodes.update(skin.group, sampled, changes)
         remember_source(skin.group, settings, values, tan, changes)
         in_view = keep_view(skin.group, changes)
-        said = skin.attach(obj, changes)
+        attached = skin.attach(obj, changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
-        return " ".join([said, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)])
+        said = [attached, *timed, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)]
+        return " ".join(said)
 
 
 def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:

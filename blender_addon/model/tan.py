@@ -91,3 +91,13 @@ def tan(
             "with this schedule (Export Schedule) or with none."
         )
     return Tan(over_time, skin)
+
+
+def darkest_day(history: History) -> float:
+    """The day on which bare skin has most melanin."""
+    melanin = history.coordinates[:, -1, 0]
+    row = int(melanin.argmax())
+    place = (row + 0.5) / len(melanin)
+    places = history.places[0, :, 1]
+    step = int(abs(places - place).argmin())
+    return history.first_day + (history.last_day - history.first_day) * step / (len(places) - 1)

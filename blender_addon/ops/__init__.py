@@ -1,14 +1,25 @@
 """What the buttons do."""
 
-from .apply import SKIN_TAN_OT_apply
-from .exposures import SKIN_TAN_OT_add_exposure, SKIN_TAN_OT_remove_exposure
+from .apply import SKIN_TAN_OT_apply, SKIN_TAN_OT_copy_to_selected
+from .exposures import (
+    SKIN_TAN_OT_add_exposure,
+    SKIN_TAN_OT_duplicate_exposure,
+    SKIN_TAN_OT_move_exposure,
+    SKIN_TAN_OT_remove_exposure,
+)
 from .schedule import SKIN_TAN_OT_export_schedule
+from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
 from .view import SKIN_TAN_OT_switch_view
 
 CLASSES = (
     SKIN_TAN_OT_add_exposure,
+    SKIN_TAN_OT_duplicate_exposure,
+    SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
     SKIN_TAN_OT_apply,
+    SKIN_TAN_OT_copy_to_selected,
+    SKIN_TAN_OT_reset_timing,
+    SKIN_TAN_OT_go_to_darkest_day,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_switch_view,
 )

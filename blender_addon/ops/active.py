@@ -18,6 +18,21 @@ def active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     return active
 
 
+def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Selected mesh objects, or those that `temp_override` names; works without a window too."""
+    layer = cast(Any, context).view_layer
+    selected = getattr(context, "selected_objects", None)
+    if selected is None:
+        selected = layer.objects.selected if layer else ()
+    return [obj for obj in selected if obj.type == "MESH"]
+
+
+def is_named(context: bpy.types.Context) -> bool:
+    """Whether `temp_override` names an object other than the active one."""
+    layer = cast(Any, context).view_layer
+    return layer is not None and active_object(context) != layer.objects.active
+
+
 def current_scene(context: bpy.types.Context) -> bpy.types.Scene:
     return cast(Any, context).scene
 

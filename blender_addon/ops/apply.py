@@ -1,26 +1,137 @@
-"""The button that gives an object its tan."""
+"""The buttons that give objects a tan."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bpy
+from bpy.props import BoolProperty, EnumProperty
 
 from hylios.errors import InputError
 
-from ..apply import apply_tan
-from .active import active_object, current_scene
+from .. import timing
+from ..apply import apply_tan, tannable
+from ..props import settings_of
+from ..props.copying import copy_values
+from .active import (
+    active_mesh,
+    active_object,
+    active_settings,
+    current_scene,
+    is_named,
+    selected_meshes,
+)
+
+FIRST_EXPOSURE = "Day in the sun"
+FIRST_AMOUNT = 4.0
+"""Tanning doses of the exposure that an object without any is given: a plain tan on every skin."""
+
+OF_THE_OBJECT = ("group", "material", "keyed")
+"""What Apply notes of an object, which is no setting."""
 
 
 class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.apply"
     bl_label = "Apply Tan"
     bl_description = (
-        "Give the active object skin that tans over the timeline, with the settings of this panel"
+        "Give the active object skin that tans over the timeline, and every selected one that has "
+        "times in the sun, each by its own settings. An active one without any gets a day of it"
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    objects: EnumProperty(
+        name="Objects",
+        description="Which objects tan",
+        items=(
+            ("SELECTED", "Selected", "The active one, and those selected with times in the sun"),
+            ("ACTIVE", "Active", "The active object alone"),
+        ),
+        default="SELECTED",
+    )
+    show: BoolProperty(
+        name="Show",
+        description="Go to the frame of the darkest day",
+        options={"SKIP_SAVE"},
+    )
+
+    def invoke(self, context, event):
+        """As `execute`; the first tan of an object is shown on its darkest day."""
+        obj = active_mesh(context)
+        self.show = obj is not None and settings_of(obj).group is None
+        return self.execute(context)
+
     def execute(self, context):
+        scene = current_scene(context)
         try:
-            message = apply_tan(active_object(context), current_scene(context))
+            obj = tannable(active_object(context))
+            with _exposed(obj):
+                said = apply_tan(obj, scene)
+            if self.show:
+                said = f"{said} {timing.show_darkest(obj, scene)}"
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, message)
+        others = [] if self.objects == "ACTIVE" or is_named(context) else selected_meshes(context)
+        others = [other for other in others if other != obj and settings_of(other).exposures]
+        self.report({"INFO"}, said)
+        _apply(self, others, scene)
         return {"FINISHED"}
+
+
+class SKIN_TAN_OT_copy_to_selected(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.copy_to_selected"
+    bl_label = "Copy Tan to Selected"
+    bl_description = (
+        "Give the selected objects the settings of the active one in place of their own, and apply "
+        "them. Every object keeps its own masks, matched by name"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        obj = active_mesh(context)
+        if obj is None or not set(selected_meshes(context)) - {obj}:
+            cls.poll_message_set("Select other mesh objects, and last the one to copy from")
+            return False
+        return True
+
+    def execute(self, context):
+        source = active_mesh(context)
+        settings = active_settings(context)
+        others = [obj for obj in selected_meshes(context) if obj != source]
+        for other in others:
+            copy_values(settings, settings_of(other), leave=OF_THE_OBJECT)
+        done = _apply(self, others, current_scene(context))
+        return {"FINISHED"} if done else {"CANCELLED"}
+
+
+@contextmanager
+def _exposed(obj: bpy.types.Object) -> Iterator[None]:
+    """Give an object without a time in the sun a day of it, unless an exception follows."""
+    settings = settings_of(obj)
+    if settings.exposures or settings.group is not None:
+        yield
+        return
+    exposure = settings.exposures.add()
+    exposure.name, exposure.unit, exposure.multiple = FIRST_EXPOSURE, "MMD", FIRST_AMOUNT
+    try:
+        yield
+    except BaseException:
+        settings.exposures.clear()
+        raise
+
+
+def _apply(
+    operator: bpy.types.Operator, objects: list[bpy.types.Object], scene: bpy.types.Scene
+) -> list[bpy.types.Object]:
+    """Apply the tans of objects, report what was done, and return those that have one."""
+    done = []
+    for obj in objects:
+        try:
+            apply_tan(tannable(obj), scene)
+        except InputError as error:
+            operator.report({"WARNING"}, f"{obj.name}: {error}")
+        else:
+            done.append(obj)
+    if done:
+        operator.report({"INFO"}, f"Applied to {', '.join(repr(obj.name) for obj in done)} too.")
+    return done

@@ -1,15 +1,48 @@
 """The buttons beside the list of exposures."""
 
 import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
+from ..props import SkinTanSettings
+from ..props.copying import copy_values
 from .active import active_mesh, active_settings
+
+SELECTED = -1
+"""Stands for the exposure that is selected in the list."""
+
+
+def _has_exposures(context: bpy.types.Context) -> bool:
+    return active_mesh(context) is not None and len(active_settings(context).exposures) > 0
+
+
+def _index(settings: SkinTanSettings, number: int) -> int:
+    """Index of an exposure by its number; beyond the last is the last."""
+    wanted = settings.exposure_index if number == SELECTED else number
+    return max(0, min(wanted, len(settings.exposures) - 1))
 
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.add_exposure"
     bl_label = "Add Exposure"
-    bl_description = "Add a time in the sun"
+    bl_description = "Add a time in the sun, a day after the last one"
     bl_options = {"REGISTER", "UNDO"}
+
+    name: StringProperty(name="Name", description="What you call this time in the sun")
+    day: FloatProperty(
+        name="Day",
+        description="Day from the start of the tan; a day after the last exposure if not given",
+        min=0.0,
+        max=LAST_DAY_LIMIT,
+        options={"SKIP_SAVE"},
+    )
+    dose: FloatProperty(
+        name="Dose (SED)",
+        description="How much sun in standard erythema doses; as the last exposure if not given",
+        min=0.0,
+        max=DOSE_LIMIT,
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context):
@@ -17,8 +50,65 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        settings.exposures.add()
+        last = max(settings.exposures, key=lambda item: item.day, default=None)
+        day = 0.0 if last is None else min(last.day + 1.0, LAST_DAY_LIMIT)
+        latest = None if last is None else list(settings.exposures).index(last)
+        added = settings.exposures.add()
+        if latest is not None:
+            copy_values(settings.exposures[latest], added)
+        added.name, added.enabled = self.name, True
+        added.day = self.day if self.properties.is_property_set("day") else day
+        if self.properties.is_property_set("dose"):
+            added.unit, added.dose = "SED", self.dose
         settings.exposure_index = len(settings.exposures) - 1
+        return {"FINISHED"}
+
+
+class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.duplicate_exposure"
+    bl_label = "Duplicate Exposure"
+    bl_description = "Copy the selected time in the sun, on the same day"
+    bl_options = {"REGISTER", "UNDO"}
+
+    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        return _has_exposures(context)
+
+    def execute(self, context):
+        settings = active_settings(context)
+        source = _index(settings, self.index)
+        added = settings.exposures.add()
+        copy_values(settings.exposures[source], added)
+        settings.exposures.move(len(settings.exposures) - 1, source + 1)
+        settings.exposure_index = source + 1
+        return {"FINISHED"}
+
+
+class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.move_exposure"
+    bl_label = "Move Exposure"
+    bl_description = "Move the selected time in the sun up or down the list; its day stays"
+    bl_options = {"REGISTER", "UNDO"}
+
+    direction: EnumProperty(
+        name="Direction", items=(("UP", "Up", ""), ("DOWN", "Down", "")), default="UP"
+    )
+    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        return _has_exposures(context)
+
+    def execute(self, context):
+        settings = active_settings(context)
+        source = _index(settings, self.index)
+        target = source + (-1 if self.direction == "UP" else 1)
+        if not 0 <= target < len(settings.exposures):
+            return {"CANCELLED"}
+        settings.exposures.move(source, target)
+        settings.exposure_index = target
         return {"FINISHED"}
 
 
@@ -28,13 +118,15 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
     bl_description = "Remove the selected time in the sun"
     bl_options = {"REGISTER", "UNDO"}
 
+    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None and len(active_settings(context).exposures) > 0
+        return _has_exposures(context)
 
     def execute(self, context):
         settings = active_settings(context)
         last = len(settings.exposures) - 1
-        settings.exposures.remove(min(settings.exposure_index, last))
+        settings.exposures.remove(_index(settings, self.index))
         settings.exposure_index = max(0, min(settings.exposure_index, last - 1))
         return {"FINISHED"}

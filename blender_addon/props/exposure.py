@@ -20,6 +20,11 @@ UNITS = (
 
 
 class SkinTanExposure(bpy.types.PropertyGroup):
+    enabled: BoolProperty(
+        name="On",
+        description="Whether this time in the sun counts",
+        default=True,
+    )
     day: FloatProperty(
         name="Day",
         description="When the skin was in the sun, in days from the start of the tan",

@@ -9,6 +9,7 @@ from bpy.props import (
     CollectionProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
     IntProperty,
     PointerProperty,
     StringProperty,
@@ -27,8 +28,22 @@ from ..model.settings import (
     TanSettings,
     own_minimal_doses,
 )
+from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
 from .exposure import SkinTanExposure
 from .skins import SKIN_ITEMS, USUAL_SKIN
+
+TIMINGS = (
+    (SCENE, "Scene's Frames", "From the first to the last frame of the scene"),
+    (SPEED, "Start and Speed", "From a frame on, so many days in a second of animation"),
+    (FRAMES, "Two Frames", "From one frame to another"),
+    (OWN, "Own Keys", "By your own keys of the object's property tan_day; Apply leaves them"),
+)
+
+
+def _set_two_frames(settings: "SkinTanSettings", _: bpy.types.Context) -> None:
+    """Frames that a script sets count, as they did before there was a choice."""
+    if settings.timing == SCENE:
+        settings.timing = FRAMES
 
 
 def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
@@ -131,12 +146,19 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         step=100,
         precision=1,
     )
+    timing: EnumProperty(
+        name="Timing",
+        description="How the days lie on the timeline",
+        items=TIMINGS,
+        default=SCENE,
+    )
     first_frame: IntProperty(
         name="First Frame",
         description="Frame that shows the first day",
         default=1,
         min=-FRAME_LIMIT,
         max=FRAME_LIMIT,
+        update=_set_two_frames,
     )
     last_frame: IntProperty(
         name="Last Frame",
@@ -144,6 +166,24 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         default=250,
         min=-FRAME_LIMIT,
         max=FRAME_LIMIT,
+        update=_set_two_frames,
+    )
+    days_per_second: FloatProperty(
+        name="Days per Second",
+        description="How many days pass in a second of animation",
+        default=3.0,
+        min=LEAST_SPEED,
+        soft_min=0.1,
+        soft_max=30.0,
+        max=LARGEST_SPEED,
+        step=10,
+        precision=1,
+    )
+    keyed: FloatVectorProperty(
+        name="Keyed",
+        description="First and last day and their frames, as Apply keyed them last",
+        size=4,
+        options={"HIDDEN"},
     )
 
     def values(self) -> TanSettings:
@@ -157,10 +197,22 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         return TanSettings(
             table=self.table_file(),
             own_doses=self.own_doses(),
-            exposures=tuple(map(Exposure.of, self.exposures)),
+            exposures=tuple(Exposure.of(item) for item in self.exposures if item.enabled),
             first_day=self.first_day,
             last_day=self.last_day,
         )
+
+    def timing_values(self) -> Timing:
+        """What is set on the timeline."""
+        way = self.timing
+        two_frames = (
+            self.is_property_set("first_frame")
+            or self.is_property_set("last_frame")
+            or (self.group is not None and not self.is_property_set("keyed"))
+        )
+        if two_frames and not self.is_property_set("timing"):
+            way = FRAMES  # a file from before there was a choice
+        return Timing(way, self.first_frame, self.last_frame, self.days_per_second)
 
     def table_file(self) -> Path:
         """Path of the skin's table.

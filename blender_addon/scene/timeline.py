@@ -1,5 +1,6 @@
 """The day of the tan on the timeline: a keyed custom property of the object, without a script."""
 
+from collections.abc import Iterator
 from typing import Any, cast
 
 import bpy
@@ -13,6 +14,9 @@ from .plan import DAY_PROPERTY
 DATA_PATH = f'["{DAY_PROPERTY}"]'
 COORDINATES = ("co", "handle_left", "handle_right")
 """Coordinates of a key and its handles."""
+
+SAME = 1e-3
+"""Frames and days no further apart are the same."""
 
 
 def check_day_property(obj: bpy.types.Object) -> None:
@@ -49,12 +53,88 @@ def is_driven(obj: bpy.types.Object) -> bool:
     return any(driver.data_path == DATA_PATH and not driver.mute for driver in drivers)
 
 
+def has_own_keys(obj: bpy.types.Object, keyed: tuple[float, ...]) -> bool:
+    """Whether the day's keys are other than those that Apply sets.
+
+    Parameters
+    ----------
+    keyed : tuple of 4 float
+        First and last day and their frames, as Apply has keyed them last.
+    """
+    ends = list(zip(keyed[2:], keyed[:2], strict=True))
+    return not all(_is_keyed(curve, ends) for curve in _day_curves(obj)) or _is_retimed(obj)
+
+
+def _day_curves(obj: bpy.types.Object) -> Iterator[Any]:
+    """Curves of the day: of the object's action, and of the strips that move it."""
+    for source in (obj.animation_data, *_strips(obj)):
+        if source is not None and source.action is not None and source.action_slot is not None:
+            bag = action_get_channelbag_for_slot(source.action, source.action_slot)
+            curve = bag.fcurves.find(DATA_PATH) if bag else None
+            if curve is not None:
+                yield curve
+
+
+def _strips(obj: bpy.types.Object) -> list[Any]:
+    tracks: Any = obj.animation_data.nla_tracks if obj.animation_data else ()
+    return [strip for track in tracks if not track.mute for strip in track.strips]
+
+
+def _is_retimed(obj: bpy.types.Object) -> bool:
+    """Whether a strip with the day shows it at other frames than its keys say."""
+    for strip in _strips(obj):
+        bag = strip.action_slot and action_get_channelbag_for_slot(strip.action, strip.action_slot)
+        if bag and bag.fcurves.find(DATA_PATH):
+            moved = abs(strip.frame_start - strip.action_frame_start) > SAME
+            if moved or strip.scale != 1.0 or strip.repeat != 1.0 or strip.use_reverse:
+                return True
+    return False
+
+
+def _is_keyed(curve: Any, ends: list[tuple[float, float]]) -> bool:
+    """Whether a curve is linear between two ends (frame, day) and nothing else."""
+    points = curve.keyframe_points
+    return (
+        len(points) == len(ends)
+        and not curve.modifiers
+        and all(point.interpolation == "LINEAR" for point in points)
+        and all(
+            abs(value - wanted) < SAME
+            for point, end in zip(points, ends, strict=True)
+            for value, wanted in zip(point.co, end, strict=True)
+        )
+    )
+
+
+def remove_modifiers(obj: bpy.types.Object) -> None:
+    """Remove the modifiers of the day's curves."""
+    for curve in _day_curves(obj):
+        for modifier in list(curve.modifiers):
+            curve.modifiers.remove(modifier)
+
+
+def set_first_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
+    """Give an object the property of the day without a key, where it has none."""
+    if DAY_PROPERTY not in obj:
+        _set_day(obj, day, changes)
+        obj.update_tag()
+
+
+def frame_of_day(obj: bpy.types.Object, scene: bpy.types.Scene, day: float) -> int | None:
+    """The frame of the scene that shows a day best, by the object's keys; None without keys."""
+    curve = next(_day_curves(obj), None)
+    if curve is None:
+        return None
+    frames = range(scene.frame_start, scene.frame_end + 1)
+    return min(frames, key=lambda frame: abs(curve.evaluate(frame) - day))
+
+
 def key_days(
     obj: bpy.types.Object,
     scene: bpy.types.Scene,
     changes: Changes,
     days: tuple[float, float],
-    frames: tuple[int, int],
+    frames: tuple[float, float],
 ) -> None:
     """Key the day on an object, linear between two frames and held outside them.
 

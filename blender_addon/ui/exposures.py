@@ -22,6 +22,9 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
     def draw_item(self, context, layout, data, item, icon, active_data, active_property):
         row = layout.row(align=True)
         row.use_property_split = False
+        row.prop(item, "enabled", text="")
+        if item.name:
+            row.prop(item, "name", text="", emboss=False)
         row.prop(item, "day", text="Day", emboss=False)
         if item.unit == "SED":
             row.prop(item, "dose", text="SED", emboss=False)
@@ -37,10 +40,16 @@ def draw_exposures(layout: bpy.types.UILayout, settings: SkinTanSettings) -> Non
     buttons = row.column(align=True)
     buttons.operator("skin_tan.add_exposure", text="", icon="ADD")
     buttons.operator("skin_tan.remove_exposure", text="", icon="REMOVE")
+    buttons.operator("skin_tan.duplicate_exposure", text="", icon="DUPLICATE")
+    if len(settings.exposures) > 1:
+        for direction in ("UP", "DOWN"):
+            move = buttons.operator("skin_tan.move_exposure", text="", icon=f"TRIA_{direction}")
+            move.direction = direction
     if not settings.exposures:
         layout.label(text="Add a time in the sun with +", icon="INFO")
         return
     exposure = settings.exposures[min(settings.exposure_index, len(settings.exposures) - 1)]
+    layout.prop(exposure, "name")
     layout.prop(exposure, "unit")
     column = layout.column(align=True)
     for names in FIELDS.get(exposure.unit, ()):  # a later version may know more units

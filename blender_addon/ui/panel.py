@@ -8,6 +8,7 @@ from hylios.errors import InputError
 
 from ..model import summary
 from ..model.catalogue import FILE
+from ..model.timing import FRAMES, SPEED
 from ..ops.active import active_mesh
 from ..props import SkinTanSettings, settings_of
 from ..scene.timeline import shown_day
@@ -84,7 +85,16 @@ def _draw_mask(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 
 
 def _draw_timeline(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
+    way = settings.timing_values().way
+    layout.prop(settings, "timing", text="")
+    column = layout.column(align=True)
     for day, frame in (("first_day", "first_frame"), ("last_day", "last_frame")):
-        row = layout.row(align=True)
+        row = column.row(align=True)
         row.prop(settings, day, text="Day")
-        row.prop(settings, frame, text="at Frame")
+        if way == FRAMES or (way == SPEED and frame == "first_frame"):
+            row.prop(settings, frame, text="at Frame")
+    if way == SPEED:
+        column.prop(settings, "days_per_second")
+    row = layout.row(align=True)
+    row.operator("skin_tan.go_to_darkest_day", text="Darkest Day", icon="TIME")
+    row.operator("skin_tan.reset_timing", text="Reset", icon="FILE_REFRESH")

@@ -9,13 +9,14 @@ ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
     "registration.py": {"ops", "props", "ui"},
-    "apply.py": {"views", "model", "scene", "props", "hylios.errors"},
+    "timing.py": {"model", "scene", "props", "hylios.errors"},
+    "apply.py": {"timing", "views", "model", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "package.py": {"hylios.errors", "hylios.files"},
     "model": {"model", "hylios"},
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
-    "ops": {"ops", "apply", "views", "props", "model", "hylios.errors", "hylios.files"},
+    "ops": {"ops", "apply", "timing", "views", "props", "model", "hylios.errors", "hylios.files"},
     "ui": {"ui", "ops", "props", "model", "scene", "hylios.errors"},
 }
 """What each room may import of the add-on and of hylios."""

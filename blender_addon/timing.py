@@ -1,0 +1,85 @@
+"""The days of an object's tan on its scene's timeline."""
+
+from functools import partial
+
+import bpy
+
+from hylios.errors import InputError
+
+from .model.settings import check_days
+from .model.tan import darkest_day, tan_of
+from .model.timing import OWN, SCENE, frames_of
+from .props import SkinTanSettings, settings_of
+from .scene import timeline
+from .scene.changes import Changes
+
+Pair = tuple[float, float]
+"""First and last."""
+
+
+def reset(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """Key the day anew by an object's settings, whatever keys it has; a sentence on it.
+
+    Raises
+    ------
+    InputError
+        If the object cannot be keyed, or a setting is out of range.
+    """
+    timeline.check_day_property(obj)
+    settings = settings_of(obj)
+    days = settings.first_day, settings.last_day
+    check_days(*days)
+    with Changes() as changes:
+        if settings.timing == OWN:
+            changes.set(settings, "timing", SCENE)
+        at = frames(settings, days, scene)
+        _key(obj, scene, days, at, changes)
+        changes.at_the_end(partial(timeline.remove_modifiers, obj))
+    return f"Day {days[0]:g} is at frame {at[0]:g}, day {days[1]:g} at frame {at[1]:g}."
+
+
+def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """Go to the frame with an object's darkest day, and return a sentence on it.
+
+    Raises
+    ------
+    InputError
+        If the object's day has no keys, or a setting cannot be used.
+    """
+    day = darkest_day(tan_of(settings_of(obj).values()).history)
+    frame = timeline.frame_of_day(obj, scene, day)
+    if frame is None:
+        raise InputError(
+            f"The day of {obj.name!r} has no keys; Apply Tan or Reset Timing sets them."
+        )
+    scene.frame_set(frame)
+    return f"Frame {frame} shows the darkest day, day {day:.0f}."
+
+
+def frames(settings: SkinTanSettings, days: Pair, scene: bpy.types.Scene) -> Pair:
+    """Frames of the first and the last day; errors as in `frames_of`."""
+    rate = scene.render.fps / scene.render.fps_base
+    within = scene.frame_start, scene.frame_end
+    return frames_of(settings.timing_values(), days, within, rate)
+
+
+def key(
+    obj: bpy.types.Object, scene: bpy.types.Scene, days: Pair, at: Pair, changes: Changes
+) -> list[str]:
+    """Key the days at frames unless the keys are the artist's own; sentences on that."""
+    settings = settings_of(obj)
+    if settings.timing == OWN:
+        timeline.set_first_day(obj, days[0], changes)
+        return []
+    keyed = tuple(settings.keyed) if any(settings.keyed) else (*days, *at)
+    if timeline.has_own_keys(obj, keyed):
+        return ["The keys of the day are your own and stay as they are (Reset Timing sets them)."]
+    _key(obj, scene, days, at, changes)
+    return []
+
+
+def _key(
+    obj: bpy.types.Object, scene: bpy.types.Scene, days: Pair, at: Pair, changes: Changes
+) -> None:
+    timeline.key_days(obj, scene, changes, days, at)
+    changes.set(settings_of(obj), "keyed", (*days, *at))

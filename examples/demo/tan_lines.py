@@ -16,7 +16,7 @@ import blender_addon
 from examples.demo import colours, interrupt, montage, render, scene
 from examples.demo.body import BodyUnavailableError, fetch_wheel
 from hylios.errors import InputError
-from hylios.table import read_table
+from hylios.table import read_table, skin_of
 
 OUT = Path("out")
 TABLE = "table.exr"
@@ -109,7 +109,6 @@ def measured(person: scene.Subject, obj: bpy.types.Object, folder: Path) -> list
     The skin is made even for it, as the light model has it.
     """
     scene.make_even(obj)
-    predicted = colours.predictions(read_table(folder / TABLE), DOSE, DAYS)
     shot = bpy.context.scene
     readings = []
     with tempfile.TemporaryDirectory(dir=folder) as scratch:
@@ -121,6 +120,9 @@ def measured(person: scene.Subject, obj: bpy.types.Object, folder: Path) -> list
                 render.light(shot, frame_of(0), render.READING, file, patch.window)
                 for patch in patches
             ]
+        skin = skin_of(read_table(folder / TABLE).provenance)
+        angles = [patch.angle for patch in patches]
+        predicted = colours.predictions(skin, DOSE, DAYS, angles)
         for day, both in zip(tqdm(DAYS, "colours", unit="frame"), predicted, strict=True):
             for patch, white, prediction in zip(patches, whites, both, strict=True):
                 light = render.light(shot, frame_of(day), render.READING, file, patch.window)

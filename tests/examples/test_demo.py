@@ -126,7 +126,7 @@ def test_suzanne_wears_a_band_whose_edge_her_mesh_can_hold():
 
 def test_readings_compare_colours_as_they_are():
     first = np.array([0.45, 0.25, 0.15])
-    reading = colours.Reading(10, "tanned", first, 0.97 * first, 0.97)
+    reading = colours.Reading(10, "tanned", first, 0.97 * first)
     assert reading.difference == pytest.approx(colour.difference(first, 0.97 * first))
     assert colours.srgb_bytes(np.array([0.0, 0.2140411, 1.0])) == [0, 127, 255]
     printed = colours.report([reading])

@@ -1,5 +1,6 @@
 """Hourly doses of ultraviolet for the tanning model, from the exposures that an artist sets."""
 
+import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from datetime import date
@@ -8,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError, require_range, require_whole
+from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
-from hylios.sun.protection import BARE, sunscreen
+from hylios.sun.protection import BARE, Protection, sunscreen
 from hylios.table.provenance import absorptance
 
 from .settings import (
@@ -60,17 +62,37 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
         duration = require_range("duration", exposure.duration, 0.0, DURATION_LIMIT, "hours")
         return of_uv_index(hour, exposure.uv_index, duration, over)
     if exposure.unit == "SUN":
-        from_midnight = of_sun(
+        absorbed = absorptance(provenance)
+        from_midnight = _of_a_day(
             _date(exposure.month, exposure.day_of_month),
             exposure.from_hour,
             exposure.to_hour,
             exposure.latitude,
-            absorptance(provenance),
-            protection=over,
+            (absorbed.wavelengths.tobytes(), absorbed.values.tobytes()),
+            (over.wavelengths.tobytes(), over.transmittance.tobytes()),
         )
         return replace(from_midnight, hours=from_midnight.hours + 24.0 * np.floor(exposure.day))
     raise InputError(
         f"unit of an exposure is {exposure.unit!r}; allowed are SED, MMD, UV_INDEX and SUN."
+    )
+
+
+@functools.lru_cache(maxsize=512)
+def _of_a_day(
+    day: date,
+    first: float,
+    last: float,
+    latitude: float,
+    absorbed: tuple[bytes, bytes],
+    over: tuple[bytes, bytes],
+) -> Doses:
+    """Doses of the sun from a day's midnight, kept: they take far longer than a tan.
+
+    The curves of the absorptance and the protection are bytes, which a cache can compare.
+    """
+    skin = Absorptance(*map(np.frombuffer, absorbed))
+    return of_sun(
+        day, first, last, latitude, skin, protection=Protection(*map(np.frombuffer, over))
     )
 
 

@@ -8,33 +8,86 @@ image has uneven rows and columns, and a second one, of one row, says where a da
 in it.
 """
 
-import heapq
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hylios.history import history_of_shares
 from hylios.sun.doses import Doses
-from hylios.tanning import Exposures, MelaninDynamics, ThicknessDynamics
+from hylios.tanning import Exposures, MelaninDynamics
+from hylios.tanning.shares import Energies, responses_of_shares, retained, states_of_shares
+
+from .thinning import by_bend, by_error
 
 STEPS = 1024
-"""Even steps of the shares from none to all, and of the days, between which rows and columns are
-picked. A jump is spread over one step of the share."""
+"""Even steps of the shares from none to all, and of the days. A jump is spread over one step of the
+share."""
 
-HOURS_PER_STEP = 4.0
-"""Candidates for a row are no closer than this, where the steps are finer."""
-
-EVEN_SHARES = 64
-"""Even steps of the shares that are simulated whatever the doses."""
-
-MOST_SHARES = 512
-"""Where it takes more shares than that, only the jumps of an exposure's first hour are kept."""
+EVEN_STEPS = 64
+"""A share is simulated after so many steps at the latest."""
 
 MOST_ROWS, MOST_COLUMNS = 160, 128
+"""Of an image that stays in a file."""
 
 TOLERANCE = 0.0045
 """Largest error of u and v between rows or columns; u of .01 is about .07 CIEDE2000."""
+
+SHOWN, HOURS_TO_PEAK = 8, 60
+"""Most hours at which the response decides which shares are simulated; how long after an
+exposure."""
+
+THICKENING = 0.1
+"""What a change of the response means for v, over what it means for u."""
+
+FEW_SHARES = 6
+"""Shares whose tans decide which hours are simulated."""
+
+REMEMBERED = 120
+"""Hours before the first day that are candidates, all of them: what has just begun goes on."""
+
+LONG = 24 * 61
+"""Hours beyond which a precision takes its rows for a long time."""
+
+
+@dataclass(frozen=True)
+class Precision:
+    """How closely a history is simulated.
+
+    Attributes
+    ----------
+    columns : int
+        Most shares.
+    response : float
+        Error of the response to light between two of them at which no more are needed.
+    rows, long_rows : int
+        Most hours, of two months and of more.
+    candidates : int
+        Even hours, over the number of rows, among which rows are picked.
+    dtype : data-type
+    thinned : bool
+        Whether the image is made small, for a file. Else it has `columns` and `rows` or
+        `long_rows` whatever the doses, so that its pixels can be written in place.
+    """
+
+    columns: int
+    response: float
+    rows: int
+    long_rows: int
+    candidates: int
+    dtype: Any
+    thinned: bool
+
+    def rows_within(self, first: int, last: int) -> int:
+        """Most rows from one hour to another."""
+        return self.rows if last - first <= LONG else self.long_rows
+
+
+FULL = Precision(256, 0.0005, 320, 640, 4, np.float64, thinned=True)
+"""For what stays in a file."""
+
+DRAG = Precision(96, 0.001, 160, 384, 3, np.float32, thinned=False)
+"""For a picture while somebody changes a setting."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +118,8 @@ def history(
     med: float,
     first_day: float,
     last_day: float,
-) -> tuple[History, NDArray[np.float64]]:
+    precision: Precision = FULL,
+) -> tuple[History, NDArray[np.floating]]:
     """Simulate doses from day 0; the history, and states (..., 4) that it leads through.
 
     Parameters
@@ -77,30 +131,33 @@ def history(
     first_day, last_day : float
         Range of days to tell, within 0 to LAST_DAY_LIMIT. An exposure after the last has no
         effect.
+    precision : Precision
+        `FULL` for what stays, `DRAG` for a picture at once.
 
     Raises
     ------
     InputError
         If a minimal dose or a day is out of range.
     """
+    first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
     exposures = received.exposures()
-    steps = _candidate_steps(exposures, melanin, mmd, med)
-    apart = _steps_apart(last_day - first_day)
-    days = first_day + (last_day - first_day) * np.arange(0, STEPS + 1, apart) / STEPS
-    simulated = history_of_shares(
-        exposures, melanin, hours=24.0 * days, mmd=mmd, med=med, shares=steps / STEPS
-    )
-    values = coordinates_of(simulated.image)
-    lines = values.reshape(len(days), -1)
-    rows = _picked(np.arange(len(days)), lines, MOST_ROWS)
-    values = values[rows]
-    lines = np.swapaxes(values, 0, 1).reshape(len(steps), -1)
-    columns = _picked(steps, lines, MOST_COLUMNS)
+    energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
+    steps = _steps(energies, _shown(exposures, end), precision)
+    hours = _marks(energies, steps, _begun(exposures), (first, end), precision)
+    states = states_of_shares(energies, steps / STEPS, hours, precision.dtype)
+    states, hours = states[hours >= first], hours[hours >= first]
+    values = coordinates_of(states)
+    if precision.thinned:
+        rows, columns = _thinned(hours, steps, values)
+        hours, steps = hours[rows], steps[columns]
+        values, states = (lines[rows[:, None], columns] for lines in (values, states))
+    else:
+        values = _filled(values, precision.rows_within(first, end), precision.columns)
+    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
     places = np.zeros((1, STEPS + 1, 3), np.float32)
-    places[0, :, 0] = _texel_places(steps[columns])
-    places[0, :, 1] = _texel_places(rows * apart)
-    kept = History(values[:, columns], places, first_day, last_day)
-    return kept, simulated.states[columns][:, rows]
+    places[0, :, 0] = _texel_places(np.arange(STEPS + 1), steps, values.shape[1])
+    places[0, :, 1] = _texel_places(days, hours, values.shape[0])
+    return History(values, places, first_day, last_day), states
 
 
 def coordinates_of(states: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -113,91 +170,82 @@ def coordinates_of(states: NDArray[np.float64]) -> NDArray[np.float32]:
     return result
 
 
-def _steps_apart(days: float) -> int:
-    """The number of steps from one candidate for a row to the next, a power of 2."""
-    apart = 1
-    while 24.0 * days / STEPS * apart * 2 <= HOURS_PER_STEP:
-        apart *= 2
-    return min(apart, STEPS // EVEN_SHARES)
-
-
-def _candidate_steps(
-    exposures: Exposures, melanin: MelaninDynamics, mmd: float, med: float
-) -> NDArray[np.int_]:
-    """Steps of the share to simulate: some even ones, and those on both sides of all jumps.
+def _steps(energies: Energies, shown: NDArray[np.int_], precision: Precision) -> NDArray[np.int_]:
+    """Steps of the share to simulate: on both sides of all jumps that matter.
 
     The response jumps at a share with which the energy retained in some hour just reaches the
-    threshold (5.7, 5.23).
+    threshold (5.7, 5.23). So the response to every step is told, exactly, in some hours.
     """
-    thickness = ThicknessDynamics()
-    runs = [
-        *_retained(exposures.hours, exposures.doses / mmd, melanin.energy_decay),
-        *_retained(exposures.hours, exposures.thickening_doses / med, thickness.energy_decay),
-    ]
-    even = np.arange(0, STEPS + 1, STEPS // EVEN_SHARES)
-    steps = _beside_jumps(np.concatenate([*runs, even[:0]]), even)
-    if len(steps) <= MOST_SHARES:
-        return steps
-    # The first hour of an exposure makes the largest jump by far.
-    even = np.arange(0, STEPS + 1, STEPS // EVEN_SHARES // 4)
-    return _beside_jumps(np.array([run[0] for run in runs]), even)
+    steps = np.arange(STEPS + 1)
+    melanin, thickness = (responses_of_shares(own, steps / STEPS, shown) for own in energies)
+    responses = np.concatenate([melanin, THICKENING * thickness], axis=1)
+    return by_error(steps, responses, precision.columns, precision.response, EVEN_STEPS)
 
 
-def _beside_jumps(energy: NDArray, even: NDArray[np.int_]) -> NDArray[np.int_]:
-    below = (STEPS / energy[energy > 1.0]).astype(int)
-    return np.unique(np.concatenate([even, below, below + 1]))
+def _shown(exposures: Exposures, end: int) -> NDArray[np.int_]:
+    """Some hours at which skin responds strongly."""
+    peaks = np.unique(np.minimum(np.append(exposures.hours + HOURS_TO_PEAK, end), end))
+    return peaks[np.linspace(0, len(peaks) - 1, min(SHOWN, len(peaks))).astype(int)]
 
 
-def _retained(hours: NDArray, doses: NDArray, decay: float) -> list[NDArray[np.float64]]:
-    """Energy retained from an exposure's hour on while it may exceed 1, up to the next exposure.
+def _marks(
+    energies: Energies,
+    steps: NDArray[np.int_],
+    begun: NDArray[np.int_],
+    span: tuple[int, int],
+    precision: Precision,
+) -> NDArray[np.int_]:
+    """Hours to simulate, from 0 to the end of a span: dense where the tans of some shares bend.
 
-    Doses are in multiples of what is just enough.
+    In the hours (N,) in which exposures begin they have a kink.
     """
-    order = np.argsort(hours, kind="stable")
-    runs, energy, last = [], 0.0, 0
-    until = np.append(hours[order][1:], np.iinfo(np.int32).max)[: hours.size]
-    for hour, dose, after in zip(hours[order], doses[order], until, strict=True):
-        energy = energy * decay ** (hour - last) + dose
-        last = hour
-        lasting = 1
-        if energy > 1.0 and decay > 0.0:
-            lasting += int(np.log(energy) / -np.log(decay))
-        runs.append(energy * decay ** np.arange(max(min(lasting, after - hour), 1)))
-    return runs
+    first, end = span
+    rows = precision.rows_within(*span)
+    kinks = np.unique(np.append(begun[begun <= end], np.maximum(begun - 1, 0)[begun <= end]))
+    if len(kinks) > rows // 2:
+        kinks = kinks[:0]
+    even = precision.candidates * rows
+    closely = np.arange(max(first - REMEMBERED, 0), first)
+    hours = np.unique(
+        np.concatenate([_even(0, first, even), closely, _even(first, end, even), kinks])
+    )
+    few = steps[np.linspace(0, len(steps) - 1, FEW_SHARES + 1).astype(int)[1:]]
+    states = states_of_shares(energies, few / STEPS, hours, np.float32)
+    lines = coordinates_of(states)[..., :2].reshape(len(hours), -1)
+    start = int(np.searchsorted(hours, first))
+    before = by_bend(hours[: start + 1], lines[: start + 1], rows)
+    most = rows - np.count_nonzero(kinks >= first)
+    told = start + by_bend(hours[start:], lines[start:], most)
+    return np.unique(np.concatenate([hours[before], hours[told], kinks]))
 
 
-def _picked(places: NDArray, values: NDArray, most: int) -> NDArray[np.int_]:
-    """Indices of lines (N, numbers) between which the others lie straight, most of them at most.
-
-    The places (N,) of the lines ascend. Splits where the error is largest (Ramer, Douglas and
-    Peucker), until none is above the tolerance.
-    """
-    picked = {0, len(places) - 1}
-    waiting = [_widest(places, values, 0, len(places) - 1)]
-    while waiting and len(picked) < most:
-        error, first, middle, last = heapq.heappop(waiting)
-        if -error <= TOLERANCE:
-            break
-        picked.add(middle)
-        for ends in ((first, middle), (middle, last)):
-            heapq.heappush(waiting, _widest(places, values, *ends))
-    return np.array(sorted(picked))
+def _begun(exposures: Exposures) -> NDArray[np.int_]:
+    """Hours in which exposures begin."""
+    hours = np.unique(exposures.hours)
+    return hours[np.diff(hours, prepend=-2) > 1]
 
 
-def _widest(places: NDArray, values: NDArray, first: int, last: int) -> tuple[float, int, int, int]:
-    """Largest error, negative, of what lies between two lines: it, and first, its and last line."""
-    if last - first < 2:
-        return 0.0, first, first, last
-    inner = slice(first + 1, last)
-    part = (places[inner] - places[first]) / (places[last] - places[first])
-    straight = np.multiply.outer(part.astype(values.dtype), values[last] - values[first])
-    straight += values[first] - values[inner]
-    errors = np.maximum(straight.max(axis=1), -straight.min(axis=1))
-    worst = int(errors.argmax())
-    return -float(errors[worst]), first, first + 1 + worst, last
+def _even(first: int, last: int, most: int) -> NDArray[np.int_]:
+    return np.linspace(first, last, min(most, last - first + 1)).round().astype(int)
 
 
-def _texel_places(steps: NDArray) -> NDArray[np.float64]:
-    """Over all steps: texture coordinates where lines are the texels' centres."""
-    count = len(steps)
-    return (np.interp(np.arange(STEPS + 1), steps, np.arange(count)) + 0.5) / count
+def _thinned(
+    hours: NDArray[np.int_], steps: NDArray[np.int_], values: NDArray[np.float32]
+) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
+    """Rows and columns of an image that is small, and within the tolerance of this one."""
+    told = values[..., :2]
+    rows = by_error(hours, told.reshape(len(hours), -1), MOST_ROWS, TOLERANCE)
+    lines = np.swapaxes(told[rows], 0, 1).reshape(len(steps), -1)
+    return rows, by_error(steps, lines, MOST_COLUMNS, TOLERANCE)
+
+
+def _filled(values: NDArray[np.float32], rows: int, columns: int) -> NDArray[np.float32]:
+    """Values (T, S, 3) in the first rows and columns of an image of a fixed size."""
+    image = np.zeros((rows, columns, 3), np.float32)
+    image[: len(values), : values.shape[1]] = values
+    return image
+
+
+def _texel_places(wanted: NDArray, lines: NDArray[np.int_], texels: int) -> NDArray[np.float64]:
+    """Texture coordinates of places, where lines are the first texels' centres."""
+    return (np.interp(wanted, lines, np.arange(len(lines))) + 0.5) / texels

@@ -7,7 +7,7 @@ from hylios.sun.doses import Doses
 from hylios.table import MinimalDoses, SkinTable, melanin_dynamics
 
 from . import catalogue, doses
-from .history import History, history
+from .history import FULL, History, Precision, history
 from .look import Look, look
 from .settings import TanSettings, check_days
 
@@ -28,8 +28,8 @@ class Tan:
     look: Look
 
 
-def tan_of(settings: TanSettings) -> Tan:
-    """What an object's settings lead to.
+def tan_of(settings: TanSettings, precision: Precision = FULL) -> Tan:
+    """What an object's settings lead to, as closely as a precision has it.
 
     Raises
     ------
@@ -45,6 +45,7 @@ def tan_of(settings: TanSettings) -> Tan:
         med=minimal.med,
         first_day=settings.first_day,
         last_day=settings.last_day,
+        precision=precision,
     )
 
 
@@ -56,6 +57,7 @@ def tan(
     med: float,
     first_day: float,
     last_day: float,
+    precision: Precision = FULL,
 ) -> Tan:
     """Simulate a skin's doses from day 0, and flatten its table along the states of its kinetics.
 
@@ -68,6 +70,8 @@ def tan(
     first_day, last_day : float
         Range of days to return, within 0 to LAST_DAY_LIMIT. An exposure after the last has no
         effect.
+    precision : Precision
+        How closely to simulate.
 
     Raises
     ------
@@ -84,6 +88,7 @@ def tan(
         med=med,
         first_day=first_day,
         last_day=last_day,
+        precision=precision,
     )
     if not table.holds(states).all():
         raise InputError(

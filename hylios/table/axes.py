@@ -152,9 +152,9 @@ class LookAxes(_Grid):
 
         All do where the axes are not bounded.
         """
-        places = self.coordinates(states)
         if not self.bounded:
-            return np.ones(places.shape[:-1], bool)
+            return np.ones(_checked(states).shape[:-1], bool)
+        places = self.coordinates(states)
         low, high = (np.array([own[end] for own in self.knots]) for end in (0, -1))
         return np.all((places >= low - SLACK) & (places <= high + SLACK), axis=-1)
 
@@ -165,6 +165,14 @@ Axes = StateAxes | LookAxes
 
 def _logarithms(states: np.ndarray, untanned: np.ndarray) -> np.ndarray:
     """Logarithms (..., 4 or 5) of states' ratios to the untanned one, as long as that is."""
+    states = _checked(states)
+    count = min(states.shape[-1], untanned.size)
+    ratios = np.zeros((*states.shape[:-1], untanned.size))
+    ratios[..., :count] = np.log(states[..., :count] / untanned[:count])
+    return ratios
+
+
+def _checked(states: np.ndarray) -> np.ndarray:
     states = np.asarray(states, dtype=float)
     if states.ndim == 0 or states.shape[-1] not in {4, 5}:
         raise InputError(
@@ -172,10 +180,7 @@ def _logarithms(states: np.ndarray, untanned: np.ndarray) -> np.ndarray:
         )
     if not np.all((states > 0) & np.isfinite(states)):
         raise InputError("a tanning state has a number that is not above 0 and finite.")
-    count = min(states.shape[-1], untanned.size)
-    ratios = np.zeros((*states.shape[:-1], untanned.size))
-    ratios[..., :count] = np.log(states[..., :count] / untanned[:count])
-    return ratios
+    return states
 
 
 def require_axes(axes: Axes) -> None:

@@ -10,6 +10,7 @@ begins as a shorter one, to the last bit.
 """
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 BLOCK = 24
 """Steps to a block: a year of hours is 24 rows of 366 blocks, then 24 of 16, then 16."""
@@ -18,7 +19,7 @@ BLOCK = 24
 def in_blocks(values: np.ndarray) -> np.ndarray:
     """Values (T, H) laid out in blocks, filled up with 0."""
     steps, histories = values.shape
-    laid_out = no_steps(steps, histories)
+    laid_out = no_steps(steps, histories, values.dtype)
     by_step = laid_out.swapaxes(0, 1)
     whole = steps // BLOCK
     by_step[:whole] = values[: whole * BLOCK].reshape(whole, BLOCK, histories)
@@ -31,9 +32,9 @@ def in_a_row(laid_out: np.ndarray, steps: int) -> np.ndarray:
     return laid_out.swapaxes(0, 1).reshape(-1, laid_out.shape[2])[:steps]
 
 
-def no_steps(steps: int, histories: int) -> np.ndarray:
+def no_steps(steps: int, histories: int, dtype: DTypeLike = float) -> np.ndarray:
     """Zeros for so many steps, laid out in blocks."""
-    return np.zeros((BLOCK, -(-steps // BLOCK), histories))
+    return np.zeros((BLOCK, -(-steps // BLOCK), histories), dtype)
 
 
 def where(steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -55,17 +56,18 @@ def accumulated(decay: np.ndarray | float, added: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    decay : float, or array like `added`
-        One for all steps and histories, or each its own.
+    decay : float, or (BLOCK, blocks, 1 or H) array
+        One for all steps and histories, or one for every step.
     added : (BLOCK, blocks, H) array
         Laid out in blocks.
 
     Returns
     -------
     (BLOCK, blocks, H) array
+        Of the dtype of `added`.
     """
     constant = np.ndim(decay) == 0
-    decays = np.full((BLOCK, 1, 1), decay) if constant else np.asarray(decay)
+    decays = np.full((BLOCK, 1, 1), decay, added.dtype) if constant else np.asarray(decay)
     result = np.empty_like(added)
     result[0] = added[0]
     for before, now, decaying, more in zip(

@@ -55,6 +55,19 @@ def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
     assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * sun.erythemal)
 
 
+def test_a_day_of_sun_is_computed_once_for_all_days_and_skins_apart(monkeypatch):
+    """Another protection or another skin is another dose; the same one is kept."""
+    bare, covered = received(unit="SUN"), received(unit="SUN", sunscreen=True)
+    assert np.all(covered.melanogenesis < bare.melanogenesis)
+    pale = {"absorptance": {**HEADER["absorptance"], "values": [0.5, 0.5, 0.5]}}
+    other = doses.received([Exposure(**{**USUAL, "unit": "SUN"})], 4.0, pale)
+    assert np.all(other.melanogenesis != bare.melanogenesis)
+    monkeypatch.setattr(doses, "of_sun", None)
+    again = received(unit="SUN", day=9.0)
+    assert np.array_equal(again.hours, bare.hours + 144.0)
+    assert np.array_equal(again.melanogenesis, bare.melanogenesis)
+
+
 def test_thin_sunscreen_lets_through_the_root():
     """SPF 30 at 2 and at 0.5 mg/cm^2: a thirtieth, and the fourth root of that."""
     assert received(sunscreen=True).thickening == pytest.approx([10.0 / 30.0])

@@ -8,15 +8,15 @@ import pytest
 from sampled import colours
 from synthetic import smooth_table
 
-from blender_addon.model import catalogue, doses, schedule
+from blender_addon.model import catalogue, doses, history, schedule
 from blender_addon.model.settings import Exposure, TanSettings, own_minimal_doses
 from blender_addon.model.tan import tan, tan_of
-from hylios import history
 from hylios.errors import InputError
 from hylios.skin import varied
 from hylios.sun.doses import of_sed
 from hylios.table import described_dynamics
-from hylios.tanning import PIGMENTATIONS, states_at
+from hylios.tanning import PIGMENTATIONS
+from hylios.tanning.shares import retained
 
 SPAN = {"mmd": 4.9, "med": 2.9, "first_day": 0.0, "last_day": 10.0}
 
@@ -65,16 +65,16 @@ def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
 
     def recorded(exposures, dynamics, **more):
         arguments.update(more, exposures=exposures)
-        return states_at(exposures, dynamics, **more)
+        return retained(exposures, dynamics, **more)
 
-    monkeypatch.setattr(history, "states_at", recorded)
+    monkeypatch.setattr(history, "retained", recorded)
     values = settings(table_path, own_doses=own_minimal_doses(6.0, 4.0))
-    tan_of(values)
+    told = tan_of(values).history
     assert (arguments["mmd"], arguments["med"]) == (6.0, 4.0)
-    assert (arguments["times"].min(), arguments["times"].max()) == (72.0, 240.0)
+    assert (told.first_day, told.last_day, arguments["hours"]) == (3.0, 10.0, 240)
     whole = doses.of_exposure(values.exposures[0], 6.0, smooth_table().provenance)
-    assert np.array_equal(arguments["exposures"].doses[-1], whole.melanogenesis)
-    assert np.array_equal(arguments["exposures"].thickening_doses[-1], whole.thickening)
+    assert np.array_equal(arguments["exposures"].doses, whole.melanogenesis)
+    assert np.array_equal(arguments["exposures"].thickening_doses, whole.thickening)
     assert np.all(whole.melanogenesis > 2.0 * whole.thickening)
 
 

@@ -6,10 +6,21 @@ from hylios.errors import InputError, require_range
 
 from . import timing
 from .model import doses
+from .model.film import film_of
 from .model.settings import TanSettings
 from .model.tan import Tan, tan_of
 from .props import settings_of
-from .scene import attributes, detail, first_version, images, layout_1, materials, nodes, timeline
+from .scene import (
+    attributes,
+    detail,
+    film,
+    first_version,
+    images,
+    layout_1,
+    materials,
+    nodes,
+    timeline,
+)
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.plan import LOOK
@@ -43,6 +54,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
         replaced = nodes.update(skin.group, sampled, changes)
+        worn = _film(settings.film, sampled.roughness)
+        film.show(skin.group, skin.trees(), worn, sampled.level, changes)
         remember_source(skin.group, settings, values, tan, changes)
         in_view = keep_view(skin.group, changes)
         attached = skin.attach(obj, changes)
@@ -116,6 +129,11 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
     )
 
 
+def _film(name: str, roughness: float) -> film.Film | None:
+    """The film of a setting, on skin with a shader's roughness."""
+    return None if name == "NONE" else film.Film(**vars(film_of(name.lower(), roughness)))
+
+
 def _remarks(
     obj: bpy.types.Object, skin: materials.Skin, values: TanSettings, tan: Tan
 ) -> list[str]:
@@ -132,6 +150,11 @@ def _remarks(
         remarks.append(
             f"The Principled BSDF was removed from {skin.group.name!r}: subsurface scattering is "
             "left to the shader in its place."
+        )
+    if settings_of(obj).film != "NONE" and not film.is_shown(skin.group):
+        remarks.append(
+            f"The film does not show: the Principled BSDF in {skin.group.name!r} was removed or "
+            "has a coat of its own."
         )
     if timeline.is_driven(obj):
         remarks.append("A driver governs the day of the tan, so its keys have no effect.")

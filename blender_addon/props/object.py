@@ -32,6 +32,14 @@ from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED
 from .exposure import SkinTanExposure
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
+FILMS = (
+    ("NONE", "Dry", "Nothing lies on the skin"),
+    ("WATER", "Water", "Skin that came out of the water"),
+    ("OIL", "Oil", "Oiled skin"),
+    ("SUNSCREEN", "Sunscreen", "Skin with sunscreen on it; what it protects is set in exposures"),
+)
+"""What may lie on the skin, the names of liquids in capitals."""
+
 TIMINGS = (
     (SCENE, "Scene's Frames", "From the first to the last frame of the scene"),
     (SPEED, "Start and Speed", "From a frame on, so many days in a second of animation"),
@@ -124,6 +132,12 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     exposures: CollectionProperty(type=SkinTanExposure)
     exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})
+    film: EnumProperty(
+        name="Film",
+        description="What lies on the skin. It shines, and the skin's own gloss goes",
+        items=FILMS,
+        default="NONE",
+    )
     mask_attribute: StringProperty(
         name="Sun Mask",
         description="Float attribute that says how much of the sun reaches each point: "

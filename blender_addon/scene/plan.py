@@ -67,7 +67,8 @@ def math_role(operation: str, label: str, location: tuple[int, int], **inputs: f
     return Role("ShaderNodeMath", label, location, {"operation": operation}, numbered)
 
 
-def _vector(operation: str, label: str, location: tuple[int, int], **inputs: Any) -> Role:
+def vector_role(operation: str, label: str, location: tuple[int, int], **inputs: Any) -> Role:
+    """A node of arithmetic with vectors; `at_1` is the value of its input 1."""
     numbered = {int(name.removeprefix("at_")): value for name, value in inputs.items()}
     return Role("ShaderNodeVectorMath", label, location, {"operation": operation}, numbered)
 
@@ -126,14 +127,16 @@ ROLES = {
     "look_row": _range("Blood to row", (500, -100)),
     "thickness": math_role("MULTIPLY_ADD", "Thin to thick", (500, -350)),
     "look_place": Role("ShaderNodeCombineXYZ", "Place in look", (700, 150)),
-    "thick_place": _vector(
+    "thick_place": vector_role(
         "MULTIPLY_ADD",
         "Place for thick skin",
         (700, -50),
         at_1=(1.0, -1.0, 1.0),
         at_2=(0.0, 1.0, 0.0),
     ),
-    "middle_place": _vector("MULTIPLY", "Place for all skin", (700, -250), at_1=(1.0, 2.0, 1.0)),
+    "middle_place": vector_role(
+        "MULTIPLY", "Place for all skin", (700, -250), at_1=(1.0, 2.0, 1.0)
+    ),
     # Files without roles call two of them so.
     "colour": _image("Colour", (900, 500)),
     "thick_colour": _image("Colour, thick skin", (900, 200)),
@@ -146,27 +149,27 @@ ROLES = {
     "width": _image("Profile width (mm)", (900, -1000)),
     "untanned_place": Role("ShaderNodeCombineXYZ", "Untanned", (700, 800)),
     "untanned": _image("Untanned colour", (900, 800)),
-    "ratio": _vector("DIVIDE", "Ratio to untanned", (1500, 800)),
+    "ratio": vector_role("DIVIDE", "Ratio to untanned", (1500, 800)),
     "facing": Role("ShaderNodeLayerWeight", "Angle of view", (1000, 1050), {}, {"Blend": 0.5}),
-    "slope": _vector("MULTIPLY_ADD", "Bow and bend", (1400, 200)),
-    "gain": _vector("MULTIPLY_ADD", "Change with the angle", (1550, 200)),
-    "base": _vector("MULTIPLY", "Base colour", (1700, 400)),
-    "near_part": _vector("MULTIPLY", "Near part", (1850, 200)),
-    "far_part": _vector("SUBTRACT", "Far part", (1850, 400)),
-    "near_scaled": _vector("SCALE", "By weight of near light", (2000, 200)),
-    "far_scaled": _vector("SCALE", "By weight of far light", (2000, 400)),
-    "near_base": _vector("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
-    "far_base": _vector("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
+    "slope": vector_role("MULTIPLY_ADD", "Bow and bend", (1400, 200)),
+    "gain": vector_role("MULTIPLY_ADD", "Change with the angle", (1550, 200)),
+    "base": vector_role("MULTIPLY", "Base colour", (1700, 400)),
+    "near_part": vector_role("MULTIPLY", "Near part", (1850, 200)),
+    "far_part": vector_role("SUBTRACT", "Far part", (1850, 400)),
+    "near_scaled": vector_role("SCALE", "By weight of near light", (2000, 200)),
+    "far_scaled": vector_role("SCALE", "By weight of far light", (2000, 400)),
+    "near_base": vector_role("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
+    "far_base": vector_role("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
     "radius": Role("ShaderNodeValue", "Width to radius", (2000, -100)),
     "dryness": math_role(
         "MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0
     ),
     "sharper": math_role("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
-    "given": _vector("LENGTH", "Length of the given normal", (1900, -300)),
+    "given": vector_role("LENGTH", "Length of the given normal", (1900, -300)),
     "without": math_role("LESS_THAN", "No normal given", (2050, -300), at_1=0.5),
     "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
-    "own_normal": _vector("SCALE", "Normal of the mesh or none", (2050, -500)),
-    "normal": _vector("ADD", "Normal", (2200, -400)),
+    "own_normal": vector_role("SCALE", "Normal of the mesh or none", (2050, -500)),
+    "normal": vector_role("ADD", "Normal", (2200, -400)),
     # A second shader takes a fourth more time, so that where both would have one gloss the near
     # light is that of a diffuse shader, whose colour takes account of the gloss.
     "two_lobes": math_role("GREATER_THAN", "Whether one gloss is sharper", (1250, 900), at_1=0.0),
@@ -178,7 +181,7 @@ ROLES = {
     "through": math_role("MULTIPLY_ADD", "What the gloss lets through", (1550, 1100)),
     "one_lobe": math_role("SUBTRACT", "Whether there is one gloss", (1550, 900), at_0=1.0),
     "beneath": math_role("MULTIPLY", "What one gloss lets through", (1700, 1000)),
-    "near_shown": _vector("SCALE", "Near light", (2150, 800)),
+    "near_shown": vector_role("SCALE", "Near light", (2150, 800)),
     "near_light": Role("ShaderNodeBsdfDiffuse", "Near light beneath one gloss", (2350, 800)),
     "near_skin": _principled("Skin, near light", (2350, 0)),
     "skin": _principled("Skin", (2350, 500)),

@@ -57,6 +57,7 @@ def _draw_skin(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
     if settings.skin == FILE:
         layout.prop(settings, "table_path", text="")
     draw_lines(layout, *skin_lines(settings))
+    layout.prop(settings, "film")
     layout.prop(settings, "own_minimal_doses")
     if settings.own_minimal_doses:
         column = layout.column(align=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from examples.truth import albedo, alike, cost, edge, eevee, gloss, illuminants, page, slab
+from examples.truth import albedo, alike, cost, edge, eevee, film, gloss, illuminants, page, slab
 from examples.truth.outcome import Outcome, table, write_readings, write_rows
 from examples.truth.rendering import rendered
 from hylios.commands.shell import run
@@ -22,6 +22,7 @@ COMPARISONS = {
     "gloss": gloss,
     "edge": edge,
     "slab": slab,
+    "film": film,
     "illuminants": illuminants,
     "alike": alike,
     "cost": cost,

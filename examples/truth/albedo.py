@@ -63,7 +63,7 @@ def read(taken: Sequence[Shot], lights: Mapping[str, Mapping[str, np.ndarray]]) 
     for part, what, allowed in (("total", "whole", WHOLE), ("subsurface", "inside", INSIDE)):
         for number, angle in enumerate(ANGLES):
             some = [
-                _reading(
+                reading(
                     f"{NAME}, {what}",
                     shot,
                     lights[shot.name]["combined" if part == "total" else "diffuse"],
@@ -79,7 +79,8 @@ def read(taken: Sequence[Shot], lights: Mapping[str, Mapping[str, np.ndarray]]) 
     return Outcome([*rows, *_noise(once, lights)], readings)
 
 
-def _reading(row: str, shot: Shot, picture: np.ndarray, said: np.ndarray) -> Reading:
+def reading(row: str, shot: Shot, picture: np.ndarray, said: np.ndarray) -> Reading:
+    """The mean colour of a picture beside the model's (3,)."""
     shown = picture.mean(axis=(0, 1))[None]
     return Reading(row, shot.name, shown, said[None], difference(shown, said[None]))
 

@@ -41,7 +41,7 @@ def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
     skin = None
     for shot in shots:
         stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
-        stage += (shot.table, shot.plain, shot.engine, shot.space, shot.unit, shot.scale)
+        stage += (shot.table, shot.plain, shot.engine, shot.space, shot.unit, shot.scale, shot.film)
         if standing != stage or skin is None:
             skin, standing = built(shot), stage
         set_inputs(skin, shot)
@@ -61,7 +61,7 @@ def built(shot: Shot) -> bpy.types.Object:
     skin = STAGES[shot.stage](shot)
     settings = skin.skin_tan
     settings.skin = "FILE" if shot.table else shot.skin
-    settings.table_path = shot.table
+    settings.table_path, settings.film = shot.table, shot.film
     exposure = settings.exposures.add()
     exposure.unit, exposure.day, exposure.multiple = "MMD", 0.0, TANS[shot.tan].multiple
     settings.first_day, settings.last_day = 0.0, LAST_DAY

@@ -47,14 +47,14 @@ def specimen(name: str, tan: str, blood: float = 1.0) -> Specimen:
     return own.at([*state[:4], blood])
 
 
-def albedo(of: Specimen, angles: Sequence[float]) -> Albedo:
-    """Colours of a specimen's reflectance at angles in degrees.
+def albedo(of: Specimen, angles: Sequence[float], film: float | None = None) -> Albedo:
+    """Colours of a specimen's reflectance at angles in degrees, under a film of that index or none.
 
     What a camera sees at an angle under even light is the reflectance at that angle of incidence,
     by reciprocity, which the model keeps but for what `hylios.transport.angular` says.
     """
     colour = skin_quadrature(MOST)
-    light = spectrum(of, colour.wavelengths, angle=list(angles))
+    light = spectrum(of, colour.wavelengths, angle=list(angles), film=film)
     return Albedo(light.subsurface @ colour.weights.T, light.total @ colour.weights.T)
 
 

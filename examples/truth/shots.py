@@ -46,6 +46,8 @@ class Shot:
         File of the skin's table in place of the add-on's own; empty for that.
     blood : float
         What the group's input Blood is set to.
+    film : str
+        What lies on the skin, as the add-on calls it.
     angle : float
         In degrees from the normal: of the camera, or of the light on the stage "lobe".
     thickness : float
@@ -82,6 +84,7 @@ class Shot:
     space: str = ""
     unit: float = 1.0
     scale: float = 1.0
+    film: str = "NONE"
 
     @property
     def described(self) -> dict:

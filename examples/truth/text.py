@@ -86,6 +86,15 @@ thicker slab differs by what its dermis absorbs.
 ```
 """
 
+FILM = """\
+## Wet, oiled, sunscreen
+
+The same with water, oil or sunscreen on the skin, types I, III and VI, untanned and dark. The model
+solves a film of the liquid's refractive index with a flat face (`hylios/adding/film.py`); Cycles
+shows it as a coat. What film and surface reflect is read from the glossy passes. In type VI the
+numbers hold what is left without a film, too.
+"""
+
 ILLUMINANTS = """\
 ## Other lamps
 
@@ -122,6 +131,7 @@ SECTIONS = {
     "edge": EDGE,
     "gloss": GLOSS,
     "slab": SLAB,
+    "film": FILM,
     "illuminants": ILLUMINANTS,
     "alike": ALIKE,
     "cost": COST,

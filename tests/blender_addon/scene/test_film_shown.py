@@ -54,6 +54,7 @@ def test_film_and_skin_show_what_the_light_model_says(body, tmp_path, liquid):
     """What they reflect by Fresnel, and the light from inside beside that of dry skin by a fit."""
     worn(body, "NONE")
     roughness = group_node(body).inputs["Roughness"].default_value
+    group_node(body).inputs["Oil"].default_value = 1e-6  # two shaders, as under a film
     dry_through = float(let_through(roughness, NORMAL_ANGLE))
     dry = shown(tmp_path, 256) - (1.0 - dry_through)
     worn(body, liquid.upper())

@@ -180,7 +180,9 @@ def _response(
     return hill(signal, dynamics.hill_constant, dynamics.hill_exponent)
 
 
-def _left(dynamics: Dynamics, hours: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _left(
+    dynamics: MelaninDynamics | ThicknessDynamics, hours: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Signal rate and signal (hours,) left of a unit of energy of hour 0."""
     rate = dynamics.signal_rate_decay ** np.arange(hours)
     signal = accumulated(dynamics.signal_decay, in_blocks(rate[:, None]))

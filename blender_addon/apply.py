@@ -4,7 +4,7 @@ import bpy
 
 from hylios.errors import InputError, require_range
 
-from . import timing
+from . import applied, timing
 from .model import doses
 from .model.film import film_of
 from .model.settings import TanSettings
@@ -61,6 +61,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         attached = skin.attach(obj, changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
+        applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [attached, *timed, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)]
         return " ".join(said)

@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-from . import ops, props, ui
+from . import live, ops, props, ui
 
 CLASSES = (*props.CLASSES, *ops.CLASSES, *ui.CLASSES)
 
@@ -16,9 +16,11 @@ def register():
     objects.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
     scenes: Any = bpy.types.Scene
     scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
+    live.register()
 
 
 def unregister():
+    live.unregister()
     objects: Any = bpy.types.Object
     del objects.skin_tan
     scenes: Any = bpy.types.Scene

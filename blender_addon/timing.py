@@ -7,7 +7,7 @@ import bpy
 from hylios.errors import InputError
 
 from .model.settings import check_days
-from .model.tan import darkest_day, tan_of
+from .model.tan import darkest_day, history_of
 from .model.timing import OWN, SCENE, frames_of
 from .props import SkinTanSettings, settings_of
 from .scene import timeline
@@ -46,7 +46,7 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     InputError
         If the object's day has no keys, or a setting cannot be used.
     """
-    day = darkest_day(tan_of(settings_of(obj).values()).history)
+    day = darkest_day(history_of(settings_of(obj).values()))
     frame = timeline.frame_of_day(obj, scene, day)
     if frame is None:
         raise InputError(

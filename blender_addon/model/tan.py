@@ -1,6 +1,8 @@
 """A tan as arrays that a shader samples: where the skin stands, and what it looks like there."""
 
+import functools
 from dataclasses import dataclass
+from pathlib import Path
 
 from hylios.errors import InputError
 from hylios.sun.doses import Doses
@@ -28,66 +30,85 @@ class Tan:
     look: Look
 
 
-def tan_of(settings: TanSettings, precision: Precision = FULL) -> Tan:
-    """What an object's settings lead to, as closely as a precision has it.
+def tan_of(settings: TanSettings) -> Tan:
+    """What an object's settings lead to.
 
     Raises
     ------
     InputError
         If a setting or the table cannot be used.
     """
+    return Tan(history_of(settings), look_of(settings))
+
+
+def look_of(settings: TanSettings) -> Look:
+    """The look of an object's skin; made again only when its table or its sensitivity changes.
+
+    Raises
+    ------
+    InputError
+        If the table cannot be used.
+    """
+    minimal = settings.minimal_doses(catalogue.provenance(settings.table))
+    return _look(settings.table, catalogue.stamp(settings.table), minimal)
+
+
+@functools.lru_cache(maxsize=8)
+def _look(path: Path, stamp: tuple[int, int], minimal: MinimalDoses) -> Look:
+    return look(catalogue.table(path), minimal)
+
+
+def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
+    """The history of an object's skin, from day 0 on, as closely as a precision has it.
+
+    Raises
+    ------
+    InputError
+        If a setting or the table cannot be used, or the table was built for a schedule that leads
+        elsewhere.
+    """
     table = catalogue.table(settings.table)
     minimal = settings.minimal_doses(table.provenance)
-    return tan(
+    return history_within(
         table,
         doses.received(settings.exposures, minimal.mmd, table.provenance),
-        mmd=minimal.mmd,
-        med=minimal.med,
-        first_day=settings.first_day,
-        last_day=settings.last_day,
-        precision=precision,
+        minimal,
+        (settings.first_day, settings.last_day),
+        precision,
     )
 
 
-def tan(
+def history_within(
     table: SkinTable,
     received: Doses,
-    *,
-    mmd: float,
-    med: float,
-    first_day: float,
-    last_day: float,
+    minimal: MinimalDoses,
+    days: tuple[float, float],
     precision: Precision = FULL,
-) -> Tan:
-    """Simulate a skin's doses from day 0, and flatten its table along the states of its kinetics.
+) -> History:
+    """Simulate a skin's doses from day 0; what a table of the skin holds of it.
 
     Parameters
     ----------
     received : Doses
         On bare skin.
-    mmd, med : float
-        Minimal melanogenesis and erythema dose in SED.
-    first_day, last_day : float
-        Range of days to return, within 0 to LAST_DAY_LIMIT. An exposure after the last has no
-        effect.
-    precision : Precision
-        How closely to simulate.
+    days : pair of float
+        First and last day to return, within 0 to LAST_DAY_LIMIT. An exposure after the last has
+        no effect.
 
     Raises
     ------
     InputError
-        If a day is out of range, or if the table does not say how its skin makes melanin, has no
-        colour for a shader, or was built for a schedule that leads elsewhere.
+        If a day is out of range, or if the table does not say how its skin makes melanin or was
+        built for a schedule that leads elsewhere.
     """
-    check_days(first_day, last_day)
-    skin = look(table, MinimalDoses(mmd=mmd, med=med))
+    check_days(*days)
     over_time, states = history(
         received,
         melanin_dynamics(table.provenance),
-        mmd=mmd,
-        med=med,
-        first_day=first_day,
-        last_day=last_day,
+        mmd=minimal.mmd,
+        med=minimal.med,
+        first_day=days[0],
+        last_day=days[1],
         precision=precision,
     )
     if not table.holds(states).all():
@@ -95,7 +116,7 @@ def tan(
             "the table was built for another schedule of sun and lacks tans of this one; build it "
             "with this schedule (Export Schedule) or with none."
         )
-    return Tan(over_time, skin)
+    return over_time
 
 
 def darkest_day(history: History) -> float:

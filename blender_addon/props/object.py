@@ -200,6 +200,17 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         options={"HIDDEN"},
     )
 
+    applied: StringProperty(
+        name="Applied",
+        description="The settings that the tan shows, as Apply noted them",
+        options={"HIDDEN"},
+    )
+    live: BoolProperty(
+        name="Live",
+        description="Show every change at once. Without it, changes wait for Apply Tan",
+        default=True,
+    )
+
     def values(self) -> TanSettings:
         """The settings as plain values.
 

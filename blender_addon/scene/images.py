@@ -71,6 +71,20 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     return image
 
 
+def swap_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
+    """Show other values (rows, columns, 3) in an image, until the file is closed or undone.
+
+    They are not packed: that takes longer than to compute them.
+    """
+    rows, columns, _ = values.shape
+    if tuple(image.size) != (columns, rows):
+        image.scale(columns, rows)
+    pixels = np.ones((rows, columns, 4), dtype=np.float32)
+    pixels[..., :3] = values
+    cast(Any, image.pixels).foreach_set(pixels.ravel())
+    image.update()
+
+
 def shared_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:
     """The image of these values (rows, columns, 3) that is in the file, or else a new one.
 

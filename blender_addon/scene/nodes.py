@@ -158,6 +158,15 @@ def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
     return [image for key in IMAGE_KEYS.values() if (image := group.get(key)) is not None]
 
 
+def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, bpy.types.Image] | None:
+    """Images of states and of places that a group shows, where Apply made both for it alone."""
+    shown = {node.image for role in ("states", "rows", "columns") for node in of_role(group, role)}
+    states, places = (group.get(IMAGE_KEYS[role]) for role in ("states", "columns"))
+    if None in (states, places) or shown != {states, places}:
+        return None
+    return states, places
+
+
 def missing_roles(group: bpy.types.NodeTree) -> list[str]:
     """Labels of nodes without which a group cannot show the tan, and which it lacks."""
     needed = (

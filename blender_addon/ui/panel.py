@@ -6,6 +6,7 @@ import bpy
 
 from hylios.errors import InputError
 
+from ..applied import is_changed
 from ..model import summary
 from ..model.catalogue import FILE
 from ..model.timing import FRAMES, SPEED
@@ -39,6 +40,9 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         row = layout.row()
         row.scale_y = 1.5
         row.operator("skin_tan.apply", icon="MATERIAL")
+        layout.prop(settings, "live")
+        if is_changed(obj, context.scene) and not settings.live:
+            layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
         layout.operator("skin_tan.export_schedule", icon="EXPORT")
         day = shown_day(obj)
         if day is not None:

@@ -2,6 +2,10 @@
 
 import numpy as np
 
+from blender_addon.model.look import look
+from blender_addon.model.tan import Tan, history_within
+from hylios.table import MinimalDoses
+
 
 def bilinear(image: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """An image (rows, columns, 3) at texture coordinates; beyond the edges their value is held."""
@@ -48,3 +52,10 @@ def colours(tan) -> np.ndarray:
 def _part(values: np.ndarray, ends: tuple[float, float]) -> np.ndarray:
     span = ends[1] - ends[0] or 1.0
     return np.clip((values - ends[0]) / span, 0.0, 1.0)
+
+
+def tan(table, received, *, mmd, med, first_day, last_day) -> Tan:
+    """What doses make of the skin of a table."""
+    minimal = MinimalDoses(mmd=mmd, med=med)
+    days = first_day, last_day
+    return Tan(history_within(table, received, minimal, days), look(table, minimal))

@@ -8,16 +8,18 @@ import pytest
 ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
-    "registration.py": {"ops", "props", "ui"},
+    "registration.py": {"live", "ops", "props", "ui"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
-    "apply.py": {"timing", "views", "model", "scene", "props", "hylios.errors"},
+    "applied.py": {"scene", "props"},
+    "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
+    "apply.py": {"applied", "timing", "views", "model", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "package.py": {"hylios.errors", "hylios.files"},
     "model": {"model", "hylios"},
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
     "ops": {"ops", "apply", "timing", "views", "props", "model", "hylios.errors", "hylios.files"},
-    "ui": {"ui", "ops", "props", "model", "scene", "hylios.errors"},
+    "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},
 }
 """What each room may import of the add-on and of hylios."""
 

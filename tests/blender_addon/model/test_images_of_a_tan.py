@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from sampled import colours
+from sampled import colours, tan
 from synthetic import smooth_table
 
 from blender_addon.model import catalogue, doses, history, schedule
 from blender_addon.model.settings import Exposure, TanSettings, own_minimal_doses
-from blender_addon.model.tan import tan, tan_of
+from blender_addon.model.tan import tan_of
 from hylios.errors import InputError
 from hylios.skin import varied
 from hylios.sun.doses import of_sed

@@ -5,10 +5,9 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from sampled import colours
+from sampled import colours, tan
 from scenes import of_role, tan_object
 
-from blender_addon.model.tan import tan
 from hylios.errors import InputError
 from hylios.history import read_schedule
 from hylios.skin.phototypes import phototype

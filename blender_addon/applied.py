@@ -1,0 +1,65 @@
+"""Whether what an artist has set is what Apply has last shown."""
+
+import bpy
+
+from .props import SkinTanSettings, settings_of
+from .scene.changes import Changes
+
+NOTES = frozenset("rna_type name group material keyed applied exposure_index live".split())
+"""Properties of an object that do not change its look."""
+
+SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())
+"""Properties that change the history of the skin and nothing else."""
+
+SEPARATOR = "\n"
+
+
+def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """All that decides an object's look, in two lines: its schedule, and the rest."""
+    settings = settings_of(obj)
+    names = [prop.identifier for prop in settings.bl_rna.properties]
+    kept = [name for name in names if name not in NOTES]
+    schedule = [_value(settings, name) for name in kept if name in SCHEDULE]
+    rest = [_value(settings, name) for name in kept if name not in SCHEDULE]
+    render, units = scene.render, scene.unit_settings
+    frames = scene.frame_start, scene.frame_end, render.fps, render.fps_base
+    return SEPARATOR.join(map(repr, (schedule, (rest, frames, units.system, units.scale_length))))
+
+
+def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None:
+    """Remember that an object's look is that of its settings."""
+    text = text_of(obj, scene)
+    if settings_of(obj).applied != text:
+        changes.set(settings_of(obj), "applied", text)
+
+
+def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether an object shows another tan than its settings describe.
+
+    It cannot be told of objects to which an earlier version of the add-on has given a tan.
+    """
+    settings = settings_of(obj)
+    return bool(settings.group and settings.applied) and settings.applied != text_of(obj, scene)
+
+
+def is_only_schedule_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether no setting but the times in the sun and the sensitivity differs from what shows."""
+    former, now = settings_of(obj).applied, text_of(obj, scene)
+    return former != now and former.split(SEPARATOR)[1:] == now.split(SEPARATOR)[1:]
+
+
+def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> object:
+    value = getattr(group, name)
+    kind = group.bl_rna.properties[name].type
+    if kind == "COLLECTION":
+        return [_values(item) for item in value]
+    if kind == "POINTER" and isinstance(value, bpy.types.PropertyGroup):
+        return _values(value)
+    if kind == "POINTER":
+        return value and value.name_full
+    return tuple(value) if hasattr(value, "__len__") and kind == "FLOAT" else value
+
+
+def _values(group: bpy.types.PropertyGroup) -> list[object]:
+    names = [prop.identifier for prop in group.bl_rna.properties]
+    return [_value(group, name) for name in names if name not in ("rna_type", "name")]

@@ -52,6 +52,17 @@ class Lighting:
 
         return illuminant_weights(count, self._illuminant, self.observer)
 
+    def enough(self, count: int) -> int:
+        """How many wavelengths make colours as right as so many do under daylight, 16 at most.
+
+        Errors as `weights`.
+        """
+        if self.is_standard:
+            return count
+        from hylios.lab.illuminants import enough_wavelengths  # colour-science
+
+        return enough_wavelengths(count, self._illuminant, self.observer)
+
     def fine_weights(self, wavelengths: np.ndarray) -> np.ndarray:
         """Weights (3, W) of a whole spectrum at wavelengths (W,) in nm; errors as `weights`."""
         from hylios.lab.colour import rec709_weights  # colour-science

@@ -14,10 +14,13 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.lab.colour import colour, hats
-from hylios.lab.skin_spectra import reconstruction, shipped_components
-from hylios.quadrature import skin_quadrature
+from hylios.lab.skin_spectra import reconstruction, shipped_components, unseen
+from hylios.quadrature import MOST, skin_quadrature
 
 DAYLIGHT, STANDARD_OBSERVER = "D65", "CIE 1931 2 degree"
+
+AS_RIGHT = 1.2
+"""Error of colours that counts as no larger than another: by a fifth."""
 
 OBSERVERS = {
     f"CIE {year} {degrees} degree": f"CIE {year} {degrees} Degree Standard Observer"
@@ -46,7 +49,7 @@ def illuminant_weights(
     Parameters
     ----------
     count : int
-        4 to 16. Lamps of narrow lines need more than the 8 that daylight does.
+        4 to 16. Lamps of narrow lines need more than daylight does (`enough_wavelengths`).
     illuminant
         By name, or wavelengths (N,) in nm, ascending, and power (N,) per wavelength in any unit;
         it is linear between the wavelengths, and none beyond them.
@@ -63,6 +66,34 @@ def illuminant_weights(
     if is_daylight(illuminant, observer):
         return quadrature.weights
     return _fine_weights(illuminant, observer) @ reconstruction(quadrature.wavelengths)
+
+
+def enough_wavelengths(
+    count: int, illuminant: Illuminant = DAYLIGHT, observer: str = STANDARD_OBSERVER
+) -> int:
+    """The fewest wavelengths that make colours as right as so many do under daylight.
+
+    Right is by the skins from which spectra are reconstructed, in the channel that is farthest off.
+
+    Returns
+    -------
+    int
+        `count` to 16; 16 where no number is enough, as for light of few lines.
+
+    Raises
+    ------
+    InputError
+        As `illuminant_weights`.
+    """
+    allowed = AS_RIGHT * _missed(count, DAYLIGHT, STANDARD_OBSERVER)
+    enough = (n for n in range(count, MOST) if _missed(n, illuminant, observer) <= allowed)
+    return next(enough, MOST)
+
+
+def _missed(count: int, illuminant: Illuminant, observer: str) -> float:
+    """Rms over skins of what a channel misses, over the skin's mean reflectance."""
+    missed = _fine_weights(illuminant, observer) @ unseen(skin_quadrature(count).wavelengths)
+    return float(np.sqrt((missed**2).sum(axis=1)).max())
 
 
 def rec709_weights_under(

@@ -70,3 +70,14 @@ def reconstruction(wavelengths: np.ndarray) -> np.ndarray:
     matrix[:count, count] = matrix[count, :count] = 1.0
     pull = np.concatenate([own @ parts.T, np.ones((1, grid.size))])
     return np.linalg.solve(matrix, pull)[:count].T
+
+
+def unseen(wavelengths: np.ndarray) -> np.ndarray:
+    """What `reconstruction` from W wavelengths misses of the components (N, K).
+
+    Parameters and errors as there.
+    """
+    grid, parts = shipped_components()
+    matrix = reconstruction(wavelengths)
+    own = np.array([np.interp(wavelengths, grid, part) for part in parts.T]).T
+    return parts - matrix @ own

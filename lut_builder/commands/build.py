@@ -76,7 +76,10 @@ def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
         "--knots", help="numbers of knots of melanin, thickness, spread and blood, such as 15,3,4,4"
     )
     parser.add_argument(
-        "--wavelengths", type=int, help="number of wavelengths that make a colour, 4 to 16"
+        "--wavelengths",
+        type=int,
+        help="number of wavelengths that make a colour, 4 to 16 "
+        "(default: the preset's, and more for a lamp whose spectrum has lines)",
     )
     parser.add_argument(
         "--bands", help="what the table holds: visible and wavelengths in nm, as visible,365,1100"
@@ -167,13 +170,17 @@ def build_table(arguments: argparse.Namespace) -> None:
         days = SCENE_DAYS if arguments.days is None else arguments.days
         schedule = _doses_of(read_schedule(arguments.schedule), arguments.schedule, days)
         reached = reached_states(skin, schedule, days)
+    seen_in = lighting(arguments.illuminant, arguments.observer)
+    if settings.colour_wavelengths and arguments.wavelengths is None:
+        enough = seen_in.enough(settings.colour_wavelengths)
+        settings = replace(settings, colour_wavelengths=enough)
     request = requested(
         skin,
         settings,
         seed=arguments.seed,
         model=model,
         reached=reached,
-        lighting=lighting(arguments.illuminant, arguments.observer),
+        lighting=seen_in,
     )
     count, work = len(request.states), units(request)
     with resumable(arguments, ".exr") as unfinished:

@@ -49,6 +49,14 @@ def test_a_lamp_s_own_spectrum_is_read_and_kept(tmp_path):
     assert not np.allclose(again.weights(6), Lighting().weights(6))
 
 
+def test_a_lamp_with_lines_gets_more_wavelengths_unless_their_number_is_given(tmp_path):
+    path = tmp_path / "t.exr"
+    quick = "--preset preview --knots 1 --bands visible --no-profile --force"
+    for given, count in (("", 7), ("--wavelengths 5", 5)):
+        assert main(f"build --illuminant FL11 {given} {quick} -o {path}".split()) == 0
+        assert read_table(path).provenance["settings"]["colour_wavelengths"] == count
+
+
 def test_light_or_eyes_that_are_none_are_one_sentence(tmp_path, capsys):
     with pytest.raises(InputError, match="illuminant is 'sun'; allowed are A, B, C"):
         lighting("sun")

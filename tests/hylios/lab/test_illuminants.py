@@ -12,12 +12,13 @@ from hylios.errors import InputError
 from hylios.lab.colour import difference, rec709_weights
 from hylios.lab.illuminants import (
     OBSERVERS,
+    enough_wavelengths,
     illuminant_weights,
     illuminants,
     rec709_weights_under,
 )
 from hylios.lab.skin_spectra import components, reconstruction, shipped_components
-from hylios.quadrature import skin_quadrature
+from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin.specimen import SPECIMENS
 
 LIGHTS = ("A", "D50", "FL2", "FL11", "LED-B3")
@@ -90,6 +91,20 @@ def test_few_wavelengths_give_the_colours_of_whole_spectra(skins, illuminant, ob
         at = np.searchsorted(GRID, skin_quadrature(count).wavelengths)
         few = skins[:, at] @ illuminant_weights(count, illuminant, observer).T
         assert difference(few, full).mean() < most
+
+
+def test_lamps_with_lines_need_more_wavelengths(skins):
+    """So many that colours are about as right as under daylight."""
+    assert [enough_wavelengths(8, lamp) for lamp in ("D65", "D50", "E", "A")] == 4 * [8]
+    assert enough_wavelengths(8, "FL11") > 8
+    assert enough_wavelengths(8, "LED-RGB1") == MOST
+    for count in (4, 8):
+        errors = []
+        for lamp, some in (("D65", count), ("FL11", enough_wavelengths(count, "FL11"))):
+            full = skins @ rec709_weights_under(GRID, lamp).T
+            at = np.searchsorted(GRID, skin_quadrature(some).wavelengths)
+            errors.append(difference(skins[:, at] @ illuminant_weights(some, lamp).T, full).mean())
+        assert errors[1] < 1.2 * errors[0]
 
 
 def test_a_spectrum_of_ones_own_is_as_the_same_by_name():

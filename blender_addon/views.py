@@ -14,10 +14,11 @@ from hylios.table import MinimalDoses
 from .model import catalogue
 from .model.settings import TanSettings
 from .model.tan import Tan
-from .model.views import VIEWS, VISIBLE, BandLook, band_look
+from .model.views import VIEWS, VISIBLE, BandLook, band_look, left_by_film
 from .props import SkinTanSettings, table_file
 from .scene import images, views
 from .scene.changes import Changes
+from .scene.film import FILM_KEY
 from .scene.ownership import is_local, names
 
 SOURCE_KEY = "skin_tan_source"
@@ -111,7 +112,8 @@ def _bands(view: str) -> Bands:
             f"Skin Tan {_called(view)}", looks[source].colour, is_colour=True
         )
         image[views.IMAGE_KEY] = True
-        return views.Band(view, image, plan.tint, plan.nearest)
+        film = left_by_film(group.get(FILM_KEY, ""), plan)
+        return views.Band(view, image, plan.tint, plan.nearest, film)
 
     return band
 

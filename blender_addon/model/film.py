@@ -29,6 +29,8 @@ class Film:
 
     Attributes
     ----------
+    liquid : str
+        Its name.
     index : float
         Of refraction.
     roughness : float
@@ -40,6 +42,7 @@ class Film:
         the colour of the light that has been inside skin without a film, in each channel.
     """
 
+    liquid: str
     index: float
     roughness: float
     relief: float
@@ -55,6 +58,7 @@ def film_of(liquid: str, roughness: float) -> Film:
     through = (1.0 - _reflected(1.0, index)) * (1.0 - _reflected(index, INDEX))
     ratio = float(let_through(roughness, NORMAL_ANGLE)) / through
     return Film(
+        liquid=liquid,
         index=index,
         roughness=ROUGHNESS[liquid],
         relief=max(0.0, 1.0 - thickness / DEEP_MILLIMETRES),

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from hylios.errors import InputError
 from hylios.pseudo_colour import TINTS
 from hylios.table import MinimalDoses, SkinTable
+from hylios.tissue.liquids import LIQUIDS
 
 from .layer import let_through
 from .look import NORMAL_ANGLE, grid_of, over_states, roughness_of
@@ -84,3 +85,14 @@ def band_look(table: SkinTable, minimal: MinimalDoses, view: View) -> BandLook:
         blood=grid.blood,
         thickness=grid.thickness,
     )
+
+
+def left_by_film(liquid: str, view: View) -> float:
+    """Share of light that is left after the way through a film on the skin, to it and back.
+
+    Parameters
+    ----------
+    liquid : str
+        A name of `hylios.tissue.liquids.LIQUIDS`, or empty for none.
+    """
+    return float(LIQUIDS[liquid].twice_through([view.nm])[0]) if liquid else 1.0

@@ -49,6 +49,9 @@ LINKS: tuple[Link, ...] = (
     *(("film_normal", "Vector", role, "Coat Normal") for role in SHADERS),
 )
 
+FILM_KEY = "skin_tan_film"
+"""Custom property of a group: the name of the liquid that it shows."""
+
 UNTOUCHED = {"IOR": INDEX, "Coat Weight": 0.0}
 """Inputs of a shader that a film is linked to where the artist has left them so."""
 
@@ -59,6 +62,8 @@ class Film:
 
     Attributes
     ----------
+    liquid : str
+        Its name.
     index, roughness : float
         Of its face.
     relief : float
@@ -67,6 +72,7 @@ class Film:
         The base colour beneath it, over that without one, is 1 + start + slope x colour.
     """
 
+    liquid: str
     index: float
     roughness: float
     relief: float
@@ -91,6 +97,8 @@ def show(
     lacks_nodes = not any(nodes.of_role(group, "film"))
     if film is not None and lacks_nodes and not nodes.has_own_shader(group):
         _add(group, trees, changes)
+    if film is not None or FILM_KEY in group:
+        changes.set_key(group, FILM_KEY, film.liquid if film else "")
     for role, values in _values(film, level).items():
         for node in nodes.of_role(group, role):
             for socket, value in values.items():

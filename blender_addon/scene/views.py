@@ -55,6 +55,9 @@ ROLES = {
         {"operation": "MULTIPLY"},
         {1: (0.0, 0.0, 0.0)},
     ),
+    "view_film": Role(
+        "ShaderNodeVectorMath", "Light through a film", (1400, 800), {"operation": "MULTIPLY_ADD"}
+    ),
     "view_tint": Role("ShaderNodeRGB", "Tint of the gloss", (1400, 950)),
 }
 LINKS: tuple[Link, ...] = (
@@ -95,6 +98,7 @@ STAND_INS = {
     "view_near": StandIn("near", "Color", 0, "Value"),
     "view_width": StandIn("width", "Color", 0, "Value"),
     "view_angle": StandIn("slope", "Vector", 0, "Vector"),
+    "view_film": StandIn("film_colour", "Vector", 0, "Vector"),
 }
 
 
@@ -112,12 +116,15 @@ class Band:
         Linear Rec.709.
     nearest : int
         Channel of the visible whose near share and far width count.
+    film : float
+        Share of light that is left after the way through the film on the skin, to it and back.
     """
 
     view: str
     image: bpy.types.Image
     tint: tuple[float, float, float]
     nearest: int
+    film: float = 1.0
 
 
 def shown_view(group: Any) -> str | None:
@@ -159,19 +166,26 @@ def show(group: Any, band: Band, changes: Changes) -> None:
     removed = nodes.missing_roles(group)
     if removed:
         raise InputError(f"nodes were removed from {group.name!r}: {', '.join(removed)}.")
-    lacking = [role for role in ROLES if not any(nodes.of_role(group, role))]
+    wanted = ROLES.keys() - (set() if any(nodes.of_role(group, "film_colour")) else {"view_film"})
+    lacking = [role for role in ROLES if role in wanted and not any(nodes.of_role(group, role))]
+    changes.may_relink(group)
     if lacking:
         changes.may_add_to(group.nodes)
-        changes.may_relink(group)
         nodes.complete(group, lacking, ROLES, LINKS)
-        for role in STAND_INS.keys() & set(lacking):
-            _stand_in(group, role)
+    for role in STAND_INS:
+        _stand_in(group, role)
     for role, socket, value in (
         ("view_near", 1, _unit_vector(band.nearest)),
         ("view_width", 1, _unit_vector(band.nearest)),
     ):
         for node in nodes.of_role(group, role):
             changes.set(nodes.find_input(node, socket), "default_value", value)
+    for node in nodes.of_role(group, "view_film"):
+        changes.set(node.inputs[1], "default_value", (band.film,) * 3)
+        # The film's share of a base colour, for which `film_level` has what it is without one.
+        level = next(nodes.of_role(group, "film_level")).inputs[2].default_value
+        less = tuple((band.film - 1.0) * value for value in level)
+        changes.set(node.inputs[2], "default_value", less)
     for node in nodes.of_role(group, "view_tint"):
         tint = Color(band.tint).from_rec709_linear_to_scene_linear()
         changes.set(node.outputs[0], "default_value", (*tint, 1.0))
@@ -196,17 +210,17 @@ def _unit_vector(channel: int) -> tuple[float, ...]:
 
 
 def _stand_in(group: Any, role: str) -> None:
-    """Put a new node into the links from what it replaces."""
+    """Put a node into the links from what it replaces, where it is not in them yet."""
     plan = STAND_INS[role]
-    (node,) = nodes.of_role(group, role)
+    node = next(nodes.of_role(group, role), None)
     replaced = next(nodes.of_role(group, plan.role), None)
-    if replaced is None:
+    if node is None or replaced is None:
         return
     start = nodes.find_output(replaced, plan.output)
     ends = [
         link.to_socket
         for link in start.links
-        if not plan.but or link.to_node.get(ROLE_KEY) != plan.but
+        if link.to_node != node and (not plan.but or link.to_node.get(ROLE_KEY) != plan.but)
     ]
     for end in ends:
         group.links.new(nodes.find_output(node, plan.gives), end)

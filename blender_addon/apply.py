@@ -17,10 +17,11 @@ from .scene import (
     first_version,
     images,
     layout_1,
-    materials,
     nodes,
+    slots,
     timeline,
 )
+from .scene import skin as skins
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.plan import LOOK
@@ -47,7 +48,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     frames = timing.frames(settings, days, scene)
     tan = tan_of(values)
     with Changes() as changes:
-        skin = materials.prepare(obj)
+        skin = skins.prepare(obj, replacing=settings.new_material)
         first_version.take_over(skin.group, changes)
         layout_1.take_over(skin.group, skin.trees(), changes)
         made = nodes.made_images(skin.group)
@@ -58,13 +59,26 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         film.show(skin.group, skin.trees(), worn, sampled.level, changes)
         remember_source(skin.group, settings, values, tan, changes)
         in_view = keep_view(skin.group, changes)
-        attached = skin.attach(obj, changes)
+        attached = skin.attach(changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
-        said = [attached, *timed, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)]
+        said = [*attached, *timed, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)]
         return " ".join(said)
+
+
+def list_materials(obj: bpy.types.Object | None) -> None:
+    """Write into an object's settings which of its materials tan: as ticked, or else a guess.
+
+    Raises
+    ------
+    InputError
+        If the object cannot carry a tan.
+    """
+    obj = tannable(obj)
+    with Changes() as changes:
+        slots.remember(obj, slots.ticks(obj, skins.group_of(obj)), changes)
 
 
 def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
@@ -135,9 +149,7 @@ def _film(name: str, roughness: float) -> film.Film | None:
     return None if name == "NONE" else film.Film(**vars(film_of(name.lower(), roughness)))
 
 
-def _remarks(
-    obj: bpy.types.Object, skin: materials.Skin, values: TanSettings, tan: Tan
-) -> list[str]:
+def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: Tan) -> list[str]:
     remarks = []
     if skin.others:
         remarks.append(f"The skin on {names(skin.others)} stays as it was.")

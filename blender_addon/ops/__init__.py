@@ -7,6 +7,7 @@ from .exposures import (
     SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
 )
+from .materials import SKIN_TAN_OT_list_materials
 from .schedule import SKIN_TAN_OT_export_schedule
 from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
 from .view import SKIN_TAN_OT_switch_view
@@ -16,6 +17,7 @@ CLASSES = (
     SKIN_TAN_OT_duplicate_exposure,
     SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
+    SKIN_TAN_OT_list_materials,
     SKIN_TAN_OT_apply,
     SKIN_TAN_OT_copy_to_selected,
     SKIN_TAN_OT_reset_timing,

@@ -30,6 +30,7 @@ from ..model.settings import (
 )
 from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
 from .exposure import SkinTanExposure
+from .material import SkinTanMaterial
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
 FILMS = (
@@ -126,9 +127,14 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     material: PointerProperty(
         name="Material",
-        description="The material that Apply made for this object",
+        description="The material that Apply made for this object, which had none",
         type=bpy.types.Material,
         options={"HIDDEN"},
+    )
+    materials: CollectionProperty(type=SkinTanMaterial)
+    new_material: BoolProperty(
+        name="New Material",
+        description="Put a new skin in place of the ticked materials. Remove Tan gives them back",
     )
     exposures: CollectionProperty(type=SkinTanExposure)
     exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})

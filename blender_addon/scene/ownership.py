@@ -9,6 +9,12 @@ from typing import Any, cast
 
 import bpy
 
+FORMER = "skin_tan_former"
+"""Custom property of a copy for one object, or of what stands in its place: the original."""
+
+MADE = "skin_tan_made"
+"""Custom property of a material that this add-on made."""
+
 
 class Users:
     """Which data-blocks use which in the file, as it was when this was made."""
@@ -26,6 +32,8 @@ class Users:
         while waiting:
             used = waiting.pop()
             for user in self._users.get(used, set()) - seen:
+                if _is_only_former(used, user):
+                    continue
                 if isinstance(user, bpy.types.Object):
                     if user != obj and not _is_only_remembered(user, used):
                         others.add(user)
@@ -38,10 +46,32 @@ class Users:
                     others.add(user)
         return others
 
+    def roots(self, block: bpy.types.ID) -> set[bpy.types.ID]:
+        """Materials, worlds and whatever else uses a node group, maybe through others."""
+        roots, seen, waiting = set(), {block}, [block]
+        while waiting:
+            for user in self._users.get(waiting.pop(), set()) - seen:
+                seen.add(user)
+                if isinstance(user, bpy.types.NodeTree):
+                    waiting.append(user)
+                else:
+                    roots.add(user)
+        return roots
+
+    def is_former(self, block: bpy.types.ID) -> bool:
+        """Whether a copy, or what stands in its place, leads back to a data-block."""
+        return any(_is_only_former(block, user) for user in self._users.get(block, ()))
+
     def _showing(self, mesh: bpy.types.Mesh, material: bpy.types.Material) -> set[bpy.types.ID]:
         """Objects of a mesh that have a material in a slot."""
         objects = (user for user in self._users[mesh] if isinstance(user, bpy.types.Object))
         return {user for user in objects if _has_in_slot(user, material)}
+
+
+def _is_only_former(block: bpy.types.ID, user: bpy.types.ID) -> bool:
+    """Whether a material or node group uses another as the one that it was copied from."""
+    kinds = (bpy.types.Material, bpy.types.NodeTree)
+    return isinstance(user, kinds) and user.get(FORMER) == block
 
 
 def _has_in_slot(obj: bpy.types.Object, material: bpy.types.ID) -> bool:
@@ -54,13 +84,14 @@ def _is_only_remembered(obj: bpy.types.Object, block: bpy.types.ID) -> bool:
     Where geometry nodes could show it, they do: their inputs may hold a material.
     """
     settings = remembered(obj)
-    return block in (settings.group, settings.material) and not (
+    ticked = (entry.material for entry in settings.materials)
+    return block in (settings.group, settings.material, *ticked) and not (
         _has_in_slot(obj, block) or any(modifier.type == "NODES" for modifier in obj.modifiers)
     )
 
 
 def remembered(obj: bpy.types.Object) -> Any:
-    """The settings of an object, whose `group` and `material` are those of its last Apply."""
+    """An object's settings; `group`, `material` and `materials` are those of its last Apply."""
     return cast(Any, obj).skin_tan
 
 

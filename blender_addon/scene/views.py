@@ -14,7 +14,7 @@ from mathutils import Color
 
 from hylios.errors import InputError
 
-from . import materials, nodes
+from . import nodes, slots
 from .changes import Changes
 from .ownership import is_local
 from .plan import ROLE_KEY, Link, Role
@@ -150,7 +150,7 @@ def groups_of_file() -> dict[Any, list[bpy.types.Object]]:
     """Tan groups that this file's objects show, and these objects; linked groups too."""
     shown: dict[Any, list[bpy.types.Object]] = {}
     for obj in filter(is_local, bpy.data.objects):
-        for group in materials.shown_groups(obj):
+        for group in slots.shown_groups(obj):
             shown.setdefault(group, []).append(obj)
     return shown
 

@@ -15,6 +15,7 @@ from ..props import SkinTanSettings, settings_of
 from ..scene.timeline import shown_day
 from .exposures import draw_exposures
 from .lines import draw_lines
+from .materials import draw_materials
 
 
 class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
@@ -35,6 +36,7 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         _draw_skin(_section(layout, "Skin"), settings)
         draw_exposures(_section(layout, "Time in the Sun"), settings)
         _draw_mask(_section(layout, "Mask: Where the Sun Reaches"), obj)
+        draw_materials(_section(layout, "Materials"), obj)
         _draw_timeline(_section(layout, "Timeline"), settings)
         layout.separator()
         row = layout.row()

@@ -98,7 +98,9 @@ def white_world() -> None:
     bpy.context.scene.world = world
 
 
-def render(path: Path, *, width: int, height: int, samples: int = 1) -> np.ndarray:
+def render(
+    path: Path, *, width: int, height: int, samples: int = 1, kind: str = "OPEN_EXR"
+) -> np.ndarray:
     """Render the current frame with Cycles; linear pixels (height, width, 3), top row first."""
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -108,7 +110,7 @@ def render(path: Path, *, width: int, height: int, samples: int = 1) -> np.ndarr
     scene.cycles.seed = 1
     scene.render.resolution_x, scene.render.resolution_y = width, height
     scene.render.resolution_percentage = 100
-    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.image_settings.file_format = kind
     scene.render.image_settings.color_depth = "32"
     scene.render.filepath = str(path)
     bpy.ops.render.render(write_still=True)

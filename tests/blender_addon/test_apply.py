@@ -129,16 +129,6 @@ def test_undo_takes_it_all_back(body):
     assert "tan_day" not in body and not body.material_slots
 
 
-def test_the_active_slot_gets_the_tan_and_other_slots_stay(body):
-    for name in ("Eyes", "Skin", "Nails"):
-        body.data.materials.append(bpy.data.materials.new(name))
-    body.active_material_index = 1
-    apply()
-    apply()
-    assert [slot.material.name for slot in body.material_slots] == ["Eyes", MATERIAL, "Nails"]
-    assert bpy.data.materials["Skin"].use_fake_user
-
-
 def test_objects_that_share_a_mesh_keep_their_own_skin(body, table_path):
     other = bpy.data.objects.new("Twin", body.data)
     bpy.context.collection.objects.link(other)

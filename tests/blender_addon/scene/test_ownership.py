@@ -301,10 +301,10 @@ def test_what_was_deleted_is_made_anew(body):
 
 
 def test_a_skin_put_aside_comes_back(body):
-    """The object got another material: Apply puts its tan's into the active slot again."""
+    """The slot was emptied: Apply puts the object's own material into it again."""
     material = body.material_slots[0].material
     group_node(body).inputs["Roughness"].default_value = 0.3
-    body.material_slots[0].material = bpy.data.materials.new("Plain")
+    body.material_slots[0].material = None
     apply(body)
     assert body.material_slots[0].material == material
     assert group_node(body).inputs["Roughness"].default_value == pytest.approx(0.3)
@@ -353,7 +353,7 @@ def test_a_material_in_an_input_of_geometry_nodes_stays_as_it_was(body):
 
 @pytest.mark.parametrize(
     ("module", "name"),
-    [(images, "set_colour_space"), (materials, "_new_skin"), (timeline, "_curve")],
+    [(images, "set_colour_space"), (materials, "new_material"), (timeline, "_curve")],
 )
 @pytest.mark.parametrize("applied", [False, True])
 def test_an_exception_leaves_all_as_it_was(table_path, monkeypatch, module, name, applied):
@@ -368,7 +368,7 @@ def test_an_exception_leaves_all_as_it_was(table_path, monkeypatch, module, name
 
     monkeypatch.setattr(module, name, fail)
     obj.skin_tan.exposures[0].dose = 8.0
-    if applied and name == "_new_skin":
+    if applied and name == "new_material":
         return
     with pytest.raises((RuntimeError, MemoryError)):
         apply(obj)

@@ -1,0 +1,157 @@
+"""The colour that an artist gave to a material, estimated without rendering."""
+
+from typing import Any, cast
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from .trees import shaders
+
+SIDE = 256
+"""Pixels along a side of the smaller copy of an image that is looked at."""
+
+MOST_CORNERS = 20000
+"""Corners of faces at which an image is looked up."""
+
+RED_OVER_GREEN, GREEN_OVER_BLUE, RED = (1.1, 3.5), (0.95, 3.0), (0.015, 0.98)
+"""Ranges of linear colours of human skin: of the types I to VI, pale to tanned, with a margin."""
+
+
+def is_like_skin(colour: NDArray[np.float64] | None) -> bool:
+    """Whether a linear colour (3,) is near that of human skin."""
+    if colour is None or not np.isfinite(colour).all() or colour.min() <= 0.0:
+        return False
+    red, green, blue = colour
+    return (
+        RED[0] <= red <= RED[1]
+        and RED_OVER_GREEN[0] <= red / green <= RED_OVER_GREEN[1]
+        and GREEN_OVER_BLUE[0] <= green / blue <= GREEN_OVER_BLUE[1]
+    )
+
+
+def painted_colour(
+    obj: bpy.types.Object, material: bpy.types.Material
+) -> NDArray[np.float64] | None:
+    """Median linear colour (3,) of a material where an object's faces show it.
+
+    None where neither an image nor a plain colour leads to its shaders, or no file is there.
+    """
+    for path, _, end in shaders(material):
+        source = _source(material, path, end)
+        if isinstance(source, bpy.types.Image):
+            source = _median(source, _places(obj, material))
+        if source is not None:
+            return source
+    return None
+
+
+def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> Any:
+    """The image or the colour (3,) that leads to an input, the nearest first."""
+    waiting: list[tuple[Any, tuple[Any, ...]]] = [(end, path)]
+    seen: set[tuple[Any, str]] = set()
+    while waiting:
+        socket, path = waiting.pop(0)
+        if not socket.is_linked:
+            # A plain colour counts only where it is the shader's, maybe through groups' inputs.
+            if socket == end or getattr(socket.node, "node_tree", None) is not None:
+                if socket.type == "RGBA":
+                    return np.array(socket.default_value[:3], dtype=float)
+            continue
+        node, output = socket.links[0].from_node, socket.links[0].from_socket.identifier
+        if (node, output) in seen:
+            continue
+        seen.add((node, output))
+        image, inner = (getattr(node, name, None) for name in ("image", "node_tree"))
+        if node.bl_idname == "ShaderNodeTexImage" and image and _is_colour(image):
+            return image
+        if node.bl_idname == "ShaderNodeRGB":
+            return np.array(node.outputs[0].default_value[:3], dtype=float)
+        if inner is not None:
+            waiting += [(exit_, (*path, inner)) for exit_ in _exits(inner, output)]
+        elif node.bl_idname == "NodeGroupInput" and path:
+            outer = path[-2] if len(path) > 1 else material.node_tree
+            waiting += [(entry, path[:-1]) for entry in _entries(outer, path[-1], output)]
+        else:
+            waiting += [(entry, path) for entry in node.inputs if entry.is_linked]
+    return None
+
+
+def _exits(group: Any, identifier: str) -> list[Any]:
+    """What leads to an output of a node group, inside."""
+    nodes = [node for node in group.nodes if node.bl_idname == "NodeGroupOutput"]
+    return [end for node in nodes for end in node.inputs if end.identifier == identifier]
+
+
+def _entries(outer: Any, group: Any, identifier: str) -> list[Any]:
+    """Inputs of the nodes that show a group in a tree."""
+    nodes = [node for node in outer.nodes if getattr(node, "node_tree", None) == group]
+    return [end for node in nodes for end in node.inputs if end.identifier == identifier]
+
+
+def _is_colour(image: bpy.types.Image) -> bool:
+    return not cast(Any, image.colorspace_settings).is_data
+
+
+def _places(obj: bpy.types.Object, material: bpy.types.Material) -> NDArray[np.float32] | None:
+    """Texture coordinates (N, 2) of corners of the faces that show a material."""
+    mesh: Any = obj.data
+    if not mesh.uv_layers.active or not mesh.polygons:
+        return None
+    index = np.zeros(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("material_index", index)
+    counts = np.zeros(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", counts)
+    slots = [slot.slot_index for slot in obj.material_slots if slot.material == material]
+    places = np.zeros(2 * len(mesh.loops), np.float32)
+    mesh.uv_layers.active.uv.foreach_get("vector", places)
+    index = index.clip(0, len(obj.material_slots) - 1)
+    shown = places.reshape(-1, 2)[np.repeat(np.isin(index, slots), counts)]
+    return shown[:: max(len(shown) // MOST_CORNERS, 1)] if len(shown) else None
+
+
+def _median(image: Any, places: NDArray | None) -> NDArray[np.float64] | None:
+    """Median linear colour (3,) of an image at places, or of all of it."""
+    pixels = _pixels(image)
+    if pixels is None:
+        return None
+    if places is not None and np.isfinite(places).all():
+        inside = ((places >= 0.0) & (places < 1.0)).all(axis=1)
+        places = places[inside] if inside.any() else places % 1.0
+        rows, columns, _ = pixels.shape
+        x, y = (places * (columns, rows)).astype(int).T
+        pixels = pixels[y.clip(0, rows - 1), x.clip(0, columns - 1)]
+    pixels = pixels.reshape(-1, 4)
+    opaque = pixels[pixels[:, 3] > 0.5]
+    colour = np.median(opaque if len(opaque) else pixels, axis=0)[:3].astype(float)
+    return colour if image.is_float else _linear(colour)
+
+
+def _linear(colour: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Linear values of sRGB ones."""
+    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+
+
+def _pixels(image: Any) -> NDArray[np.float32] | None:
+    """Pixels (rows, columns, 4) of an image, of a small copy where it is large."""
+    if min(image.size) == 0:
+        return None
+    is_copy = image.source == "FILE" and not image.is_dirty and max(image.size) > SIDE
+    if is_copy:
+        image = image.copy()
+    try:
+        if is_copy:
+            image.scale(min(image.size[0], SIDE), min(image.size[1], SIDE))
+        values = np.zeros(len(image.pixels), np.float32)
+        image.pixels.foreach_get(values)
+        width, height, channels = *image.size, image.channels
+    finally:
+        if is_copy:
+            bpy.data.images.remove(image)
+    if len(values) != width * height * channels:
+        return None
+    values = values.reshape(height, width, channels)
+    if channels == 4:
+        return values
+    colour = values[..., :3] if channels == 3 else values[..., :1].repeat(3, axis=2)
+    return np.concatenate([colour, np.ones((height, width, 1), np.float32)], axis=2)

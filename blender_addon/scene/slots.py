@@ -1,0 +1,163 @@
+"""Which of an object's materials are skin: what the artist ticked, or else a guess."""
+
+import re
+from collections.abc import Iterator
+from typing import Any, cast
+
+import bpy
+import numpy as np
+
+from .changes import Changes
+from .ownership import remembered
+from .painted import is_like_skin, painted_colour
+from .trees import tan_groups, tree_of
+
+SKIN = frozenset(
+    """
+    skin body face head ear lip nail fingernail toenail nipple areola aureola areolae aureolae arm
+    leg torso hand foot feet neck genital limb chest belly breast finger toe eyelid scalp
+    haut körper koerper gesicht kopf peau corps visage piel cuerpo cara pelle corpo viso
+    """.split()
+)
+"""Words in names of materials of skin."""
+
+OTHER = frozenset(
+    """
+    eye eyeball iris cornea sclera pupil tear tearline occlusion caruncle teeth tooth tongue gum
+    mouth hair eyelash lash eyebrow brow beard mustache fur cloth clothing clothes garment shirt
+    tshirt pant trouser jean short shoe boot sandal dress skirt sock stocking hat cap glass
+    glasses bikini swimsuit bodysuit suit underwear bra panties panty brief belt jacket coat glove
+    jewel jewelry ring earring necklace metal fabric leather denim cotton button zipper prop
+    auge zahn zähne haar wimper braue kleid hose hemd schuh cheveux cheveu oeil dent ojo pelo
+    """.split()
+)
+"""Words in names of materials that are none."""
+
+SKIN_SIGNS = tuple("肌体顔首手足耳唇")
+OTHER_SIGNS = tuple("目瞳髪眉歯服舌睫毛靴")
+COMPOUND = 4
+"""Letters of a word of skin that may end another word: humanbody, mainskin."""
+
+RELINKED = "skin_tan_relinked"
+"""Custom property of a material of one object: its slot was the mesh's and became the object's."""
+
+
+def materials_of(obj: bpy.types.Object) -> list[bpy.types.Material]:
+    """Materials in an object's slots, each once."""
+    return list(dict.fromkeys(slot.material for slot in obj.material_slots if slot.material))
+
+
+def shown_groups(obj: bpy.types.Object) -> Iterator[bpy.types.NodeTree]:
+    """Tan groups that an object's materials show, each once, at any depth."""
+    shown = dict.fromkeys(materials_of(obj))
+    if remembered(obj).material is not None:
+        shown[remembered(obj).material] = None  # geometry nodes may show it
+    yield from dict.fromkeys(group for one in shown for group in tan_groups(tree_of(one)))
+
+
+def is_skin_by_name(name: str) -> bool | None:
+    """Whether a material's name says that it is skin; None where it says nothing."""
+    split = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", " ", name).lower()
+    words = {word for word in re.split(r"[\W\d_]+", split) if word}
+    words |= {word.removesuffix("s") for word in words}
+    if words & OTHER or any(sign in name for sign in OTHER_SIGNS):
+        return False
+    ends = tuple(word for word in SKIN if len(word) >= COMPOUND)
+    if words & SKIN or any(sign in name for sign in SKIN_SIGNS):
+        return True
+    return True if any(word.endswith(ends) for word in words) else None
+
+
+def faces_of_slots(obj: bpy.types.Object) -> list[int]:
+    """How many faces show each slot of a mesh object."""
+    polygons: Any = cast(bpy.types.Mesh, obj.data).polygons
+    indices = np.zeros(len(polygons), np.int32)
+    polygons.foreach_get("material_index", indices)
+    last = max(len(obj.material_slots) - 1, 0)
+    return np.bincount(indices.clip(0, last), minlength=last + 1).tolist()
+
+
+def _faces(obj: bpy.types.Object) -> dict[bpy.types.Material, int]:
+    """How many faces show each material."""
+    counts = dict.fromkeys(materials_of(obj), 0)
+    for slot, number in zip(obj.material_slots, faces_of_slots(obj), strict=False):
+        if slot.material is not None:
+            counts[slot.material] += number
+    return counts
+
+
+def ticks(
+    obj: bpy.types.Object, group: bpy.types.NodeTree | None
+) -> dict[bpy.types.Material, bool]:
+    """Of the materials in an object's slots, which are to tan.
+
+    What the artist has said counts. Of other materials those that show the object's tan do, and
+    those with faces that look like skin: by name, by colour, or, if nothing tells, the one with
+    most faces.
+
+    Parameters
+    ----------
+    group : ShaderNodeTree or None
+        Of the object's tan.
+    """
+    shown = materials_of(obj)
+    entries = remembered(obj).materials
+    said = {entry.material: entry.tans for entry in entries if entry.material in shown}
+    inside = {material: set(tan_groups(tree_of(material))) for material in shown}
+    result = {material: said.get(material, group in inside[material]) for material in shown}
+    if not said and any(result.values()):
+        return result  # of an earlier version, which served one slot
+    unsaid = [material for material in shown if material not in said and not inside[material]]
+    is_first = not any(result.values())
+    return {**result, **dict.fromkeys(_guess(obj, unsaid, is_first=is_first and not said), True)}
+
+
+def _guess(
+    obj: bpy.types.Object, materials: list[bpy.types.Material], *, is_first: bool
+) -> list[bpy.types.Material]:
+    """Those of some materials of an object that are skin; at first there must be one."""
+    counts = _faces(obj)
+    if any(counts.values()):
+        materials = [material for material in materials if counts[material]]
+    names = {material: is_skin_by_name(material.name) for material in materials}
+    skin = [material for material in materials if names[material]]
+    unnamed = [material for material in materials if names[material] is None]
+    if not skin:
+        skin = [block for block in unnamed if is_like_skin(painted_colour(obj, block))]
+    if not skin and is_first and materials:
+        skin = [max(unnamed or materials, key=lambda material: counts[material])]
+    return skin
+
+
+def remember(
+    obj: bpy.types.Object, ticked: dict[bpy.types.Material, bool], changes: Changes
+) -> None:
+    """Write into an object's settings which materials are to tan."""
+    entries = remembered(obj).materials
+    former = [(entry.material, entry.tans) for entry in entries]
+    if former == list(ticked.items()):
+        return
+    changes.on_failure(_write, entries, former)
+    _write(entries, list(ticked.items()))
+
+
+def _write(entries: Any, values: list[tuple[bpy.types.Material, bool]]) -> None:
+    entries.clear()
+    for material, tans in values:
+        entry = entries.add()
+        entry.material, entry.tans = material, tans
+
+
+def put(
+    obj: bpy.types.Object,
+    slot: Any,
+    material: bpy.types.Material | None,
+    changes: Changes,
+) -> None:
+    """Put a material into a slot of one object alone."""
+    if obj.data.users > 1 and slot.link == "DATA":
+        # Other objects have this mesh too: they keep their own skin.
+        changes.set(slot, "link", "OBJECT")
+        if material is not None:
+            material[RELINKED] = True
+    changes.set(slot, "material", material)

@@ -2,12 +2,13 @@
 
 import bpy
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError
 
 from . import applied, timing
 from .model import doses
 from .model.film import film_of
 from .model.settings import TanSettings
+from .model.size import lines_on
 from .model.tan import Tan, tan_of
 from .props import settings_of
 from .scene import (
@@ -18,6 +19,7 @@ from .scene import (
     images,
     layout_1,
     nodes,
+    size,
     slots,
     timeline,
 )
@@ -42,7 +44,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     settings = settings_of(obj)
     attributes.check_mask(obj, settings.mask_attribute)
     timeline.check_day_property(obj)
-    unit = _scene_unit(scene)
+    unit = size.body_unit(obj, scene)
     values = settings.values()
     days = values.first_day, values.last_day
     frames = timing.frames(settings, days, scene)
@@ -64,7 +66,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
-        said = [*attached, *timed, *_remarks(obj, skin, values, tan), *in_view, *_on_kept(kept)]
+        said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
+        said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
 
 
@@ -106,14 +109,6 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
                 "(Object > Relations > Make Local)."
             )
     return obj
-
-
-def _scene_unit(scene: bpy.types.Scene) -> float:
-    """Length of a scene unit in metres; Blender ignores the scale where units are off."""
-    units = scene.unit_settings
-    if units.system == "NONE":
-        return 1.0
-    return require_range("unit scale of the scene", units.scale_length, 1e-9, 1e9)
 
 
 def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
@@ -177,6 +172,11 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks
+
+
+def _on_size(obj: bpy.types.Object, scene: bpy.types.Scene) -> list[str]:
+    lines = lines_on(size.length(obj, scene))
+    return [f"{' '.join(lines)}; press Fit Skin to Size."] if lines else []
 
 
 def _on_kept(kept: list[bpy.types.Image]) -> list[str]:

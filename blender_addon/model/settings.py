@@ -18,6 +18,9 @@ DOSE_LIMIT, MULTIPLE_LIMIT = 1000.0, 100.0
 DURATION_LIMIT, FACTOR_LIMIT = 48.0, 1000.0
 """Most hours under a UV index, and largest SPF, of one exposure."""
 
+LEAST_SCALE, LARGEST_SCALE = 1e-4, 1e4
+"""Range of how many times life-size a model is."""
+
 FRAME_LIMIT = 1048574
 """Last frame of Blender's timeline; the first is minus this."""
 

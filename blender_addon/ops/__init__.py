@@ -9,6 +9,7 @@ from .exposures import (
 )
 from .materials import SKIN_TAN_OT_list_materials
 from .schedule import SKIN_TAN_OT_export_schedule
+from .size import SKIN_TAN_OT_fit_size
 from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
 from .view import SKIN_TAN_OT_switch_view
 
@@ -23,5 +24,6 @@ CLASSES = (
     SKIN_TAN_OT_reset_timing,
     SKIN_TAN_OT_go_to_darkest_day,
     SKIN_TAN_OT_export_schedule,
+    SKIN_TAN_OT_fit_size,
     SKIN_TAN_OT_switch_view,
 )

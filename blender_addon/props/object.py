@@ -21,8 +21,10 @@ from ..model.catalogue import FILE, shipped_path
 from ..model.settings import (
     FRAME_LIMIT,
     LARGEST_MINIMAL_DOSE,
+    LARGEST_SCALE,
     LAST_DAY_LIMIT,
     LEAST_MINIMAL_DOSE,
+    LEAST_SCALE,
     Exposure,
     MinimalDoses,
     TanSettings,
@@ -118,6 +120,18 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         max=LARGEST_MINIMAL_DOSE,
         step=10,
         precision=1,
+    )
+    model_scale: FloatProperty(
+        name="Model Scale",
+        description="How many times life-size the model is: 10 for a body 17 m tall. Light "
+        "travels so much farther in its skin, and its pores are so much larger",
+        default=1.0,
+        min=LEAST_SCALE,
+        max=LARGEST_SCALE,
+        soft_min=0.01,
+        soft_max=100.0,
+        step=10,
+        precision=3,
     )
     group: PointerProperty(
         name="Node Group",

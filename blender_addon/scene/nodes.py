@@ -77,7 +77,7 @@ class Sampled:
     mask_attribute : str
         With the share of the dose at each point; without one every place gets all of it.
     scene_unit : float
-        Length of a scene unit in metres.
+        Length of a scene unit in metres, on a body of life-size.
     """
 
     states: bpy.types.Image
@@ -107,6 +107,11 @@ class Sampled:
             "thick_colour": self.look["colour"],
             "untanned": self.look["colour"],
         }
+
+
+def radius_of_millimetre(scene_unit: float) -> float:
+    """Subsurface scale by which a far width in mm becomes a radius; a scene unit is in metres."""
+    return RADIUS_PER_MILLIMETRE / scene_unit
 
 
 def require_readable(group: bpy.types.NodeTree) -> None:
@@ -321,7 +326,7 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "cubic": {1: sampled.through[3], 2: sampled.through[2]},
         "quadratic": {2: sampled.through[1]},
         "through": {2: sampled.through[0]},
-        "radius": {OUT: RADIUS_PER_MILLIMETRE / sampled.scene_unit},
+        "radius": {OUT: radius_of_millimetre(sampled.scene_unit)},
     }
 
 

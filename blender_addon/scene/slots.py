@@ -8,9 +8,9 @@ import bpy
 import numpy as np
 
 from .changes import Changes
-from .ownership import remembered
+from .ownership import is_local, remembered
 from .painted import is_like_skin, painted_colour
-from .trees import tan_groups, tree_of
+from .trees import chain, tan_groups, tree_of
 
 SKIN = frozenset(
     """
@@ -53,6 +53,13 @@ def shown_groups(obj: bpy.types.Object) -> Iterator[bpy.types.NodeTree]:
     if remembered(obj).material is not None:
         shown[remembered(obj).material] = None  # geometry nodes may show it
     yield from dict.fromkeys(group for one in shown for group in tan_groups(tree_of(one)))
+
+
+def shown_trees(obj: bpy.types.Object, group: bpy.types.NodeTree) -> Iterator[bpy.types.NodeTree]:
+    """Local node trees of an object that lead to a group, from its materials on."""
+    for block in chain(materials_of(obj), group):
+        if block != group and is_local(block):
+            yield tree_of(block)
 
 
 def is_skin_by_name(name: str) -> bool | None:

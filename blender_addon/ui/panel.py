@@ -16,6 +16,7 @@ from ..scene.timeline import shown_day
 from .exposures import draw_exposures
 from .lines import draw_lines
 from .materials import draw_materials
+from .size import draw_size
 
 
 class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
@@ -38,6 +39,7 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         _draw_mask(_section(layout, "Mask: Where the Sun Reaches"), obj)
         draw_materials(_section(layout, "Materials"), obj)
         _draw_timeline(_section(layout, "Timeline"), settings)
+        draw_size(layout, obj, context.scene)
         layout.separator()
         row = layout.row()
         row.scale_y = 1.5

@@ -1,4 +1,4 @@
-"""What must not change a picture: Blender's working space, units, and the object's scale."""
+"""What must not change a picture: working space, OpenColorIO, units, scale of object or model."""
 
 from collections.abc import Mapping, Sequence
 
@@ -16,6 +16,9 @@ SPACES = {"Linear Rec.2020": "ITU-R BT.2020", "ACEScg": "ACEScg"}
 ALIKE = 0.05
 """Largest mean CIEDE2000 between pictures of the same."""
 
+STUDIO = "a studio's OpenColorIO configuration"
+"""In ACEScg, with other names for all colour spaces."""
+
 WHITE, EDGE = "usual, even light", "usual, edge"
 
 
@@ -28,6 +31,17 @@ def shots() -> list[Shot]:
         Shot(EDGE, "edge", "III", "dark", size=size),
         Shot("scene unit of .01 m", "edge", "III", "dark", size=size, unit=0.01),
         Shot("object scale 10", "edge", "III", "dark", size=size, scale=10.0),
+        Shot("ten times life-size and mended", "edge", "III", "dark", size=size, model_scale=10.0),
+        Shot(
+            "unit .01 m after Apply and mended",
+            "edge",
+            "III",
+            "dark",
+            size=size,
+            unit=0.01,
+            applied_unit=1.0,
+        ),
+        Shot(STUDIO, "white", "III", "dark", configuration="studio.ocio"),
     ]
 
 
@@ -42,7 +56,8 @@ def read(taken: Sequence[Shot], lights: Mapping[str, Mapping[str, np.ndarray]]) 
             lights[name]["combined"].mean(axis=(0, 1) if even else 0).reshape(-1, 3)
             for name in (WHITE if even else EDGE, shot.name)
         )
-        seen = in_rec709(other, SPACES[shot.space]) if shot.space else other
+        space = "ACEScg" if shot.configuration else shot.space
+        seen = in_rec709(other, SPACES[space]) if space else other
         apart = difference(seen, usual)
         places = np.arange(len(seen), dtype=float)
         readings.append(Reading("alike", shot.name, seen, usual, apart, places))

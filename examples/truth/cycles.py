@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -41,7 +42,8 @@ def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
     skin = None
     for shot in shots:
         stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
-        stage += (shot.table, shot.plain, shot.engine, shot.space, shot.unit, shot.scale, shot.film)
+        stage += (shot.table, shot.plain, shot.engine, shot.space, shot.unit, shot.scale)
+        stage += (shot.film, shot.model_scale, shot.applied_unit)
         if standing != stage or skin is None:
             skin, standing = built(shot), stage
         set_inputs(skin, shot)
@@ -57,8 +59,8 @@ def built(shot: Shot) -> bpy.types.Object:
     if shot.space:
         bpy.ops.wm.set_working_color_space(working_space=shot.space, convert_colors=True)
     scene = bpy.context.scene
-    scene.unit_settings.scale_length = shot.unit
-    skin = STAGES[shot.stage](shot)
+    scene.unit_settings.scale_length = shot.applied_unit or shot.unit
+    skin = STAGES[shot.stage](replace(shot, unit=shot.unit / shot.model_scale))
     settings = skin.skin_tan
     settings.skin = "FILE" if shot.table else shot.skin
     settings.table_path, settings.film = shot.table, shot.film
@@ -69,6 +71,10 @@ def built(shot: Shot) -> bpy.types.Object:
     bpy.context.view_layer.objects.active = skin
     if bpy.ops.skin_tan.apply() != {"FINISHED"}:
         raise InputError(f"Apply failed for the shot {shot.name!r}.")
+    if shot.applied_unit or shot.model_scale != 1.0:
+        scene.unit_settings.scale_length = shot.unit
+        bpy.context.view_layer.update()
+        bpy.ops.skin_tan.fit_size()
     make_even(skin)
     if shot.plain:
         skin.material_slots[0].material = plain_material()

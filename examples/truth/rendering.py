@@ -1,6 +1,7 @@
 """Shots rendered by Blender in a process of its own."""
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -11,6 +12,8 @@ import numpy as np
 
 from examples.truth.shots import DONE, Shot
 from hylios.errors import InputError
+
+HERE = Path(__file__).parent
 
 LONGEST = 1800.0
 """Seconds after which Blender is taken to hang."""
@@ -27,12 +30,26 @@ def rendered(shots: Sequence[Shot], progress: Callable[[str], object] | None = N
     InputError
         If that fails; Blender's process has said why.
     """
+    lights: Lights = {}
+    for configuration in dict.fromkeys(shot.configuration for shot in shots):
+        some = [shot for shot in shots if shot.configuration == configuration]
+        lights |= _rendered(some, configuration, progress)
+    return lights
+
+
+def _rendered(
+    shots: Sequence[Shot], configuration: str, progress: Callable[[str], object] | None
+) -> Lights:
+    """The same, where OpenColorIO, which Blender reads as it starts, is configured alike."""
+    ocio = {"OCIO": str(HERE / configuration)} if configuration else {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         described = folder / "shots.json"
         described.write_text(json.dumps([shot.described for shot in shots]))
         command = [sys.executable, "-m", "examples.truth.cycles", str(described), str(folder)]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as blender:
+        with subprocess.Popen(
+            command, stdout=subprocess.PIPE, text=True, env={**os.environ, **ocio}
+        ) as blender:
             for line in blender.stdout or ():
                 if progress and line.startswith(DONE):
                     progress(line.removeprefix(DONE).strip())

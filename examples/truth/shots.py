@@ -66,6 +66,12 @@ class Shot:
         Length of a scene unit in metres.
     scale : float
         Scale of the object, whose mesh is so much smaller.
+    model_scale : float
+        How many times life-size all of the scene is; mended after Apply by one click.
+    applied_unit : float
+        `unit` at Apply, mended by one click afterwards; 0 where it was the same.
+    configuration : str
+        A file of OpenColorIO's in this folder; empty for Blender's own.
     """
 
     name: str
@@ -85,6 +91,9 @@ class Shot:
     unit: float = 1.0
     scale: float = 1.0
     film: str = "NONE"
+    model_scale: float = 1.0
+    applied_unit: float = 0.0
+    configuration: str = ""
 
     @property
     def described(self) -> dict:

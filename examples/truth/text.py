@@ -107,9 +107,10 @@ of three numbers of albedo and three of a lamp is no spectrum times a spectrum.
 ALIKE = """\
 ## What must not matter
 
-Blender's working space, the length of a scene unit and the scale of the object, each beside the
-usual picture of the same skin. A studio's own OpenColorIO configuration is held by a test
-(`tests/blender_addon/scene/test_working_spaces.py`).
+Blender's working space, a studio's own OpenColorIO configuration (in ACEScg, with other names for
+all colour spaces), the length of a scene unit and the scale of the object, each beside the usual
+picture of the same skin. And what **Fit Skin to Size** mends: a model that is ten times life-size,
+and a scene unit that changed after Apply.
 """
 
 COST = """\

@@ -14,11 +14,15 @@ SUBJECTS = {
     "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
     "apply.py": {"applied", "timing", "views", "model", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
+    "size.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
     "package.py": {"hylios.errors", "hylios.files"},
     "model": {"model", "hylios"},
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
-    "ops": {"ops", "apply", "timing", "views", "props", "model", "hylios.errors", "hylios.files"},
+    "ops": {
+        *("ops", "apply", "timing", "views", "size", "props", "model"),
+        *("hylios.errors", "hylios.files"),
+    },
     "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},
 }
 """What each room may import of the add-on and of hylios."""

@@ -64,36 +64,7 @@ print("RESULT" + json.dumps([first, again, reloaded, spaces]))
 sys.stdout.flush()
 os._exit(0)
 """
-CONFIG = """\
-ocio_profile_version: 2
-search_path: ""
-strictparsing: true
-roles: {{color_picking: sRGB, data: Raw, default: sRGB, scene_linear: {scene_linear}}}
-file_rules:
-  - !<Rule> {{name: Default, colorspace: {scene_linear}}}
-displays:
-  sRGB:
-    - !<View> {{name: Standard, colorspace: sRGB}}
-active_displays: [sRGB]
-active_views: [Standard]
-colorspaces:
-  - !<ColorSpace>
-    name: CIE-XYZ-D65
-    aliases: [cie_xyz_d65_interchange]
-    bitdepth: 32f
-  - !<ColorSpace>
-    name: Linear Rec.709 (sRGB)
-    bitdepth: 32f
-    to_scene_reference: !<MatrixTransform>
-      matrix: [.6131, .3395, .0474, 0, .0702, .9164, .0134, 0, .0206, .1096, .8698, 0, 0, 0, 0, 1]
-  - !<ColorSpace> {{name: ACEScg, bitdepth: 32f}}
-  - !<ColorSpace> {{name: Raw, bitdepth: 32f, isdata: true}}
-  - !<ColorSpace>
-    name: sRGB
-    bitdepth: 32f
-    from_scene_reference: !<MatrixTransform>
-      matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
-"""
+CONFIG = ROOT / "examples" / "truth" / "studio.ocio"
 
 
 def shown(space: str, table_path: Path, folder: Path, **environment: str) -> list:
@@ -132,9 +103,7 @@ def test_in_another_working_space(space, expected, table_path, tmp_path):
 
 
 def test_under_a_studio_s_configuration(expected, table_path, tmp_path):
-    config = tmp_path / "config.ocio"
-    config.write_text(CONFIG.format(scene_linear="ACEScg"))
-    first, again, reloaded, spaces = shown("", table_path, tmp_path, OCIO=str(config))
+    first, again, reloaded, spaces = shown("", table_path, tmp_path, OCIO=str(CONFIG))
     assert set(spaces) == {"Linear Rec.709 (sRGB)", "Raw"}
     assert first == pytest.approx(TO_SPACE["ACEScg"] @ expected[0], abs=1e-4)
     assert again == pytest.approx(TO_SPACE["ACEScg"] @ expected[1], abs=1e-4)

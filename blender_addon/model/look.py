@@ -58,7 +58,7 @@ class Look:
         Linear Rec.709 albedo of the light that has been inside the skin, seen at 8 degrees.
     bend, bow : images
         How the shader's base colour over `colour` changes with the angle of view: by
-        bend x + bow x^2, x being 1 less the angle's cosine.
+        bend x + bow x^2, x being how much less the angle's cosine is than that of 8 degrees.
     near : image
         Share of that light that leaves where it entered.
     far : image
@@ -67,7 +67,7 @@ class Look:
         Square root of the relative melanin at the first and last column; b at the first and the
         last row; v of thin and thick skin.
     level : float
-        The shader's base colour over `colour`, seen straight on.
+        The shader's base colour over `colour`, seen at 8 degrees.
     near_weight : float
         Weight, at most 1, of the shader that shows the near light: a skin's usual near share.
     through : 4 floats
@@ -256,7 +256,7 @@ def _by_angle(planes, roughness: float) -> tuple[NDArray, NDArray]:
     bases = np.stack([planes[_at(angle)] for angle in angles]) / lit
     bases /= let_through(roughness, angles)[:, None, None, None, None]
     bases -= 1.0 / let_through(roughness, NORMAL_ANGLE)
-    x = 1.0 - np.cos(np.radians(angles))
+    x = np.cos(np.radians(NORMAL_ANGLE)) - np.cos(np.radians(angles))
     weights = np.sqrt([OBLIQUE[angle] for angle in angles])
     solve = np.linalg.pinv(weights[:, None] * np.stack([x, x * x], axis=1)) * weights
     bend, bow = np.einsum("ka,a...->k...", solve, bases)

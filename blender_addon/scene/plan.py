@@ -21,6 +21,9 @@ DAY_PROPERTY = "tan_day"
 INDEX = 1.5526
 """Index of refraction of the surface of the skin in the model."""
 
+SEEN = 0.00973
+"""1 less the cosine of the 8 degrees at which Colour is seen."""
+
 SHARPEST = 0.3
 """Roughness of fully oiled skin's sharper gloss over that of the skin, by eye."""
 
@@ -151,6 +154,7 @@ ROLES = {
     "untanned": _image("Untanned colour", (900, 800)),
     "ratio": vector_role("DIVIDE", "Ratio to untanned", (1500, 800)),
     "facing": Role("ShaderNodeLayerWeight", "Angle of view", (1000, 1050), {}, {"Blend": 0.5}),
+    "turned": math_role("SUBTRACT", "Angle of view from that of Colour", (1200, 750), at_1=SEEN),
     "slope": vector_role("MULTIPLY_ADD", "Bow and bend", (1400, 200)),
     "gain": vector_role("MULTIPLY_ADD", "Change with the angle", (1550, 200)),
     "base": vector_role("MULTIPLY", "Base colour", (1700, 400)),
@@ -194,7 +198,7 @@ SHADERS = frozenset(
     "dryness sharper given without geometry own_normal normal two_lobes far_weight far_factor "
     "cubic quadratic square through one_lobe beneath near_shown near_light light "
     "near_skin lobes near_base far_base near_scaled far_scaled near_part far_part base gain slope "
-    "facing".split()
+    "facing turned".split()
 )
 """Roles that nobody needs where an artist has put another shader in place of ours."""
 
@@ -235,10 +239,11 @@ LINKS: tuple[Link, ...] = (
     ("mixed_colour", "Result_Color", "ratio", 0),
     ("untanned", "Color", "ratio", 1),
     ("bow", "Color", "slope", 0),
-    ("facing", "Facing", "slope", 1),
+    ("facing", "Facing", "turned", 0),
+    ("turned", "Value", "slope", 1),
     ("bend", "Color", "slope", 2),
     ("slope", "Vector", "gain", 0),
-    ("facing", "Facing", "gain", 1),
+    ("turned", "Value", "gain", 1),
     ("mixed_colour", "Result_Color", "base", 0),
     ("gain", "Vector", "base", 1),
     ("base", "Vector", "near_part", 0),

@@ -100,7 +100,7 @@ def test_emission_equals_the_table(tmp_path, table, table_path, frame, subframe)
 
 def test_the_ratio_of_untanned_skin_is_1(tmp_path, table_path):
     obj = tan_object(table_path)
-    obj.skin_tan.exposures.clear()
+    obj.skin_tan.exposures[0].enabled = False
     apply_timed(obj)
     add_camera((0.5, 0.5, 5.0), 1.0)
     show_emission_of("Ratio")
@@ -142,7 +142,7 @@ def test_without_a_mask_the_whole_body_gets_the_full_dose(tmp_path, table, table
 
 def test_without_exposures_the_skin_stays_as_it_was(tmp_path, table_path):
     obj = tan_object(table_path)
-    obj.skin_tan.exposures.clear()
+    obj.skin_tan.exposures[0].enabled = False
     apply_timed(obj)
     add_camera((0.5, 0.5, 5.0), 1.0)
     show_emission_of("Colour")

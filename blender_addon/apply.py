@@ -12,12 +12,13 @@ from .model.size import lines_on
 from .model.tan import Tan, tan_of
 from .props import settings_of
 from .scene import (
-    attributes,
     detail,
     film,
     first_version,
     images,
     layout_1,
+    mask_nodes,
+    masks,
     nodes,
     size,
     slots,
@@ -42,7 +43,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     """
     obj = tannable(obj)
     settings = settings_of(obj)
-    attributes.check_mask(obj, settings.mask_attribute)
+    for mask in {*settings.masks(), settings.shown_mask()}:
+        masks.require_usable(obj, mask)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)
     values = settings.values()
@@ -57,6 +59,9 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
         replaced = nodes.update(skin.group, sampled, changes)
+        mask_nodes.show(
+            skin.group, mask_nodes.shown_mask(obj, settings.shown_mask(), changes), changes
+        )
         worn = _film(settings.film, sampled.roughness)
         film.show(skin.group, skin.trees(), worn, sampled.level, changes)
         remember_source(skin.group, settings, values, tan, changes)
@@ -134,7 +139,6 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
         has_profile=look.has_profile,
         first_day=history.first_day,
         last_day=history.last_day,
-        mask_attribute=settings_of(obj).mask_attribute,
         scene_unit=unit,
     )
 
@@ -166,6 +170,9 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
         )
     if timeline.is_driven(obj):
         remarks.append("A driver governs the day of the tan, so its keys have no effect.")
+    several = len(set(settings_of(obj).masks()))
+    if several > 1:
+        remarks.append(masks.SEVERAL.format(several))
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")

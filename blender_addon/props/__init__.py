@@ -1,6 +1,7 @@
 """What an artist sets on an object."""
 
 from .exposure import SkinTanExposure
+from .mask import SkinTanMask
 from .material import SkinTanMaterial
 from .object import SkinTanSettings, settings_of, table_file
 from .scene import SkinTanScene
@@ -8,6 +9,7 @@ from .scene import SkinTanScene
 __all__ = [
     "CLASSES",
     "SkinTanExposure",
+    "SkinTanMask",
     "SkinTanMaterial",
     "SkinTanScene",
     "SkinTanSettings",
@@ -15,4 +17,4 @@ __all__ = [
     "table_file",
 ]
 
-CLASSES = (SkinTanExposure, SkinTanMaterial, SkinTanSettings, SkinTanScene)
+CLASSES = (SkinTanMask, SkinTanExposure, SkinTanMaterial, SkinTanSettings, SkinTanScene)

@@ -1,7 +1,7 @@
 """What an artist sets of one exposure: one time in the sun."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..model.settings import (
     DOSE_LIMIT,
@@ -10,6 +10,7 @@ from ..model.settings import (
     LAST_DAY_LIMIT,
     MULTIPLE_LIMIT,
 )
+from .mask import SkinTanMask, show_mask
 
 UNITS = (
     ("SED", "Dose", "As a dose in standard erythema doses (SED)"),
@@ -134,3 +135,9 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         step=10,
         precision=1,
     )
+    own_mask: BoolProperty(
+        name="Own Mask",
+        description="Other cloth was worn this time: a mask for this exposure alone",
+        update=show_mask,
+    )
+    mask: PointerProperty(name="Mask", type=SkinTanMask)

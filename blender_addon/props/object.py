@@ -1,5 +1,6 @@
 """All that an artist sets on one object."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -31,7 +32,9 @@ from ..model.settings import (
     own_minimal_doses,
 )
 from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
+from ..scene.masks import Mask
 from .exposure import SkinTanExposure
+from .mask import SkinTanMask, take_attribute, usable_names
 from .material import SkinTanMaterial
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
@@ -158,11 +161,18 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         items=FILMS,
         default="NONE",
     )
-    mask_attribute: StringProperty(
-        name="Sun Mask",
-        description="Float attribute that says how much of the sun reaches each point: "
-        "0 is covered, 1 is bare. Without one, the whole body is bare",
+    mask: PointerProperty(
+        name="Mask",
+        description="Where the sun reaches, for all exposures without a mask of their own",
+        type=SkinTanMask,
     )
+    mask_attribute: StringProperty(
+        name="Mask",
+        description="What says how much of the sun reaches each point: 0 is covered, 1 is bare",
+        search=usable_names,
+        update=take_attribute,
+    )
+    """The mask's source, as scripts and files of version 0.1.0 set it."""
     first_day: FloatProperty(
         name="First Day",
         description="Day of the tan at the first frame",
@@ -258,6 +268,24 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         if two_frames and not self.is_property_set("timing"):
             way = FRAMES  # a file from before there was a choice
         return Timing(way, self.first_frame, self.last_frame, self.days_per_second)
+
+    def object_mask(self) -> Mask:
+        """The mask of all exposures that have none of their own."""
+        mask = Mask.of(self.mask)
+        return mask or replace(mask, source=self.mask_attribute)
+
+    def masks(self) -> tuple[Mask, ...]:
+        """The masks of the exposures that count, in their order."""
+        return tuple(
+            Mask.of(exposure.mask) if exposure.own_mask else self.object_mask()
+            for exposure in self.exposures
+            if exposure.enabled
+        )
+
+    def shown_mask(self) -> Mask:
+        """The one mask of all exposures; where they have several, the object's."""
+        masks = set(self.masks())
+        return masks.pop() if len(masks) == 1 else self.object_mask()
 
     def table_file(self) -> Path:
         """Path of the skin's table.

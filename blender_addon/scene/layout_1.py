@@ -91,6 +91,10 @@ def _move_links(group: Any) -> None:
         for node in of_role(group, role):
             for former in list(find_input(node, "Vector").links):
                 group.links.remove(former)
+    for share in of_role(group, "share"):
+        for former in list(find_input(share, 0).links):
+            if former.from_node.get(ROLE_KEY) == "mask":  # an artist's own node in between stays
+                group.links.remove(former)
 
 
 def _outputs(group: Any, role: str, output: str) -> list[Any]:

@@ -74,8 +74,6 @@ class Sampled:
     has_profile : bool
         Whether light scatters below the surface.
     first_day, last_day : float
-    mask_attribute : str
-        With the share of the dose at each point; without one every place gets all of it.
     scene_unit : float
         Length of a scene unit in metres, on a body of life-size.
     """
@@ -93,7 +91,6 @@ class Sampled:
     has_profile: bool
     first_day: float
     last_day: float
-    mask_attribute: str
     scene_unit: float
 
     @property
@@ -152,8 +149,6 @@ def update(
             for socket, value in (_straight(values) if is_math else values).items():
                 end = node.outputs[0] if socket == OUT else find_input(node, socket)
                 changes.set(end, "default_value", value)
-    for node in of_role(group, "mask"):
-        changes.set(node, "attribute_name", sampled.mask_attribute)
     _set_profile(group, sampled, changes)
     return replaced
 
@@ -310,7 +305,6 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
     days = (sampled.first_day, sampled.last_day)
     # Groups made before `two_lobes` have no link into the factor of `lobes` and `far_scaled`.
     return {
-        "share": {1: 0.0 if sampled.mask_attribute else 1.0},
         "column": _between((0.0, 1.0), 0.5 / steps, 1.0 - 0.5 / steps),
         "row": _between(days, 0.5 / steps, 1.0 - 0.5 / steps),
         "look_column": melanin,

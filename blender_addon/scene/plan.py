@@ -101,8 +101,27 @@ LOOK = {
 """Roles of the images of a look, and how they are called. `bend` and `bow` tell how colour changes
 with the angle of view."""
 
+IMAGE_ROLES = {
+    "mask_uv": Role("ShaderNodeUVMap", "UV map of the mask", (-2700, 50)),
+    "mask_image": _image("Mask image", (-2500, 100)),
+    "image_channel": vector_role("DOT_PRODUCT", "Channel of the image", (-2200, 100)),
+    "image_alpha": math_role("MULTIPLY_ADD", "Alpha of the image", (-2000, 50)),
+}
+"""Nodes of a mask that is an image. A group gets them with the first such mask, for others have no
+need of them: a node takes 4 kB of a file."""
+
 ROLES = {
-    "mask": Role("ShaderNodeAttribute", "Share", (-1600, 250), {"attribute_type": "GEOMETRY"}),
+    "mask": Role("ShaderNodeAttribute", "Share", (-2500, 350), {"attribute_type": "GEOMETRY"}),
+    "mask_channel": vector_role("DOT_PRODUCT", "Channel of the mask", (-2300, 400)),
+    "mask_alpha": math_role("MULTIPLY_ADD", "Alpha of the mask", (-2100, 350)),
+    "mask_value": Role(
+        "ShaderNodeMath",
+        "Mask, cut to 0 to 1",
+        (-1800, 250),
+        {"operation": "ADD", "use_clamp": True},
+        {1: 0.0},
+    ),
+    "mask_share": math_role("MULTIPLY_ADD", "Invert and strength", (-1600, 250)),
     "share": math_role("MAXIMUM", "Share or all", (-1400, 250)),
     "day": Role(
         "ShaderNodeAttribute",
@@ -202,8 +221,22 @@ SHADERS = frozenset(
 )
 """Roles that nobody needs where an artist has put another shader in place of ours."""
 
+IMAGE_LINKS: tuple[Link, ...] = (
+    ("mask_uv", "UV", "mask_image", "Vector"),
+    ("mask_image", "Color", "image_channel", 0),
+    ("mask_image", "Alpha", "image_alpha", 0),
+    ("image_channel", "Value", "image_alpha", 2),
+    ("image_alpha", "Value", "mask_value", 1),
+)
+"""Links of the nodes of a mask that is an image."""
+
 LINKS: tuple[Link, ...] = (
-    ("mask", "Fac", "share", 0),
+    ("mask", "Color", "mask_channel", 0),
+    ("mask", "Alpha", "mask_alpha", 0),
+    ("mask_channel", "Value", "mask_alpha", 2),
+    ("mask_alpha", "Value", "mask_value", 0),
+    ("mask_value", "Value", "mask_share", 0),
+    ("mask_share", "Value", "share", 0),
     ("share", "Value", "column", 0),
     ("day", "Fac", "row", 0),
     ("column", 0, "columns", "Vector"),

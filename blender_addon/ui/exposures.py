@@ -6,8 +6,9 @@ from hylios.errors import InputError
 
 from ..model import summary
 from ..model.settings import Exposure
-from ..props import SkinTanSettings
+from ..props import SkinTanSettings, settings_of
 from .lines import draw_lines
+from .masks import draw_mask
 
 FIELDS = {
     "SED": (("dose",),),
@@ -32,7 +33,10 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
             row.label(text=summary.of_exposure(Exposure.of(item)))
 
 
-def draw_exposures(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
+def draw_exposures(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
+) -> None:
+    settings = settings_of(obj)
     row = layout.row()
     row.template_list(
         "SKIN_TAN_UL_exposures", "", settings, "exposures", settings, "exposure_index", rows=3
@@ -61,6 +65,9 @@ def draw_exposures(layout: bpy.types.UILayout, settings: SkinTanSettings) -> Non
         row = layout.row(align=True)
         row.prop(exposure, "spf")
         row.prop(exposure, "sunscreen_amount")
+    layout.prop(exposure, "own_mask")
+    if exposure.own_mask:
+        draw_mask(layout, obj, exposure.mask, context)
     draw_lines(layout, *dose_lines(settings, Exposure.of(exposure)))
 
 

@@ -15,6 +15,7 @@ from ..props import SkinTanSettings, settings_of
 from ..scene.timeline import shown_day
 from .exposures import draw_exposures
 from .lines import draw_lines
+from .masks import draw_object_mask
 from .materials import draw_materials
 from .size import draw_size
 
@@ -35,8 +36,8 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
             return
         settings = settings_of(obj)
         _draw_skin(_section(layout, "Skin"), settings)
-        draw_exposures(_section(layout, "Time in the Sun"), settings)
-        _draw_mask(_section(layout, "Mask: Where the Sun Reaches"), obj)
+        draw_exposures(_section(layout, "Time in the Sun"), obj, context)
+        draw_object_mask(_section(layout, "Mask: Where the Sun Reaches"), obj, context)
         draw_materials(_section(layout, "Materials"), obj)
         _draw_timeline(_section(layout, "Timeline"), settings)
         draw_size(layout, obj, context.scene)
@@ -84,13 +85,6 @@ def skin_lines(settings: SkinTanSettings) -> tuple[tuple[str, ...], str]:
         if settings.skin == FILE:
             return ("This is not a usable skin table",), "ERROR"
         return ("This skin's table is damaged:", "install the add-on anew"), "ERROR"
-
-
-def _draw_mask(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
-    settings = settings_of(obj)
-    layout.prop_search(settings, "mask_attribute", obj.data, "attributes", text="", icon="MOD_MASK")
-    if not settings.mask_attribute:
-        layout.label(text="No mask: the whole body is bare", icon="INFO")
 
 
 def _draw_timeline(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:

@@ -24,7 +24,7 @@ ALLOWED = {
     "lut_builder/jobs/cluster.py": {"distributed", "hylios"},
     "lut_builder/near_far_fit.py": {"numpy", "scipy", "hylios"},
     "lut_builder/trade/figure.py": {"numpy", "matplotlib", "hylios"},
-    "blender_addon": {"numpy", "bpy", "bpy_extras", "mathutils", "hylios"},
+    "blender_addon": {"numpy", "bpy", "bmesh", "bpy_extras", "mathutils", "hylios"},
     "blender_addon/package.py": {"bpy", "hylios"},
 }
 """What each room may import besides the standard library and itself; the longest match counts."""

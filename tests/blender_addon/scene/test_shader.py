@@ -95,7 +95,7 @@ def test_emission_equals_the_table(tmp_path, table, table_path, frame, subframe)
         show_emission_of(output)
         assert rendered_squares(tmp_path, len(SHARES)) == pytest.approx(expected(plane), rel=close)
     show_emission_of("Share")
-    assert rendered_squares(tmp_path, len(SHARES))[:, 0] == pytest.approx(SHARES.clip(0.0, 1.7))
+    assert rendered_squares(tmp_path, len(SHARES))[:, 0] == pytest.approx(SHARES.clip(0.0, 1.0))
 
 
 def test_the_ratio_of_untanned_skin_is_1(tmp_path, table_path):

@@ -39,11 +39,8 @@ class Layout:
         assert icon in ICONS
         self.labels.append(text)
 
-    def prop(self, data, name, *, text=None, emboss=True):
+    def prop(self, data, name, *, text=None, emboss=True, icon="NONE"):
         assert name in data.bl_rna.properties
-
-    def prop_search(self, data, name, collection, items, *, text, icon):
-        assert name in data.bl_rna.properties and items in collection.bl_rna.properties
         assert icon in ICONS
 
     def operator(self, name, *, text=None, icon="NONE", depress=False):

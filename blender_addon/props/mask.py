@@ -1,0 +1,111 @@
+"""What an artist sets of one mask: what says how much of the sun reaches each point."""
+
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty, StringProperty
+
+from ..scene import mask_nodes, masks
+
+CHANNELS = (
+    ("MEAN", "Brightness", "Mean of red, green and blue"),
+    ("RED", "Red", "Red alone"),
+    ("GREEN", "Green", "Green alone"),
+    ("BLUE", "Blue", "Blue alone"),
+    ("ALPHA", "Alpha", "Opacity alone"),
+)
+
+
+def usable_names(owner: Any, context: bpy.types.Context, text: str) -> list[tuple[str, str]]:
+    """Names of what can be a mask, with what it is; for the search of a text field."""
+    del text  # Blender filters
+    return [
+        (source.name, source.label)
+        for source in masks.usable_sources(owner.id_data, masks.current_depsgraph())
+    ]
+
+
+def uv_map_names(owner: Any, context: bpy.types.Context, text: str) -> list[str]:
+    """Names of UV maps, for the search of a text field."""
+    del text
+    return masks.uv_map_names(owner.id_data, masks.current_depsgraph())
+
+
+def show_mask(owner: Any, context: bpy.types.Context | None) -> None:
+    """Have a tan that is there show what the settings of its object's masks are now."""
+    obj = owner.id_data
+    mask_nodes.show_at_once(obj, obj.skin_tan.shown_mask())
+
+
+def take_source(owner: Any, context: bpy.types.Context) -> None:
+    """Of a name that was chosen, take the image if it stands for one."""
+    obj, name = owner.id_data, owner.source
+    if owner.image is None or owner.image.name != name:
+        image = masks.image_named(obj, name)
+        if owner.image != image:
+            owner.image = image
+    settings = obj.skin_tan
+    if owner == settings.mask and settings.mask_attribute != name:
+        settings.mask_attribute = name
+    show_mask(owner, context)
+
+
+def take_image(owner: Any, context: bpy.types.Context) -> None:
+    """Name the image that was chosen as the source; without one, the source is none either."""
+    obj, image = owner.id_data, owner.image
+    name = image.name if image else owner.source
+    if image is None and masks.source_of(obj, masks.Mask(name), None) is None:
+        name = ""
+    if owner.source != name:
+        owner.source = name
+    else:
+        show_mask(owner, context)
+
+
+def take_attribute(settings: Any, context: bpy.types.Context) -> None:
+    """Take the source by its former name."""
+    if settings.mask.source != settings.mask_attribute:
+        settings.mask.source = settings.mask_attribute
+
+
+class SkinTanMask(bpy.types.PropertyGroup):
+    source: StringProperty(
+        name="Mask",
+        description="What says how much of the sun reaches each point: 0 is covered, 1 is bare. A "
+        "vertex group, an attribute of points, corners or faces, or an image",
+        search=usable_names,
+        update=take_source,
+    )
+    image: PointerProperty(
+        name="Image",
+        description="The image that is the mask: black is covered, white is bare",
+        type=bpy.types.Image,
+        update=take_image,
+    )
+    uv_map: StringProperty(
+        name="UV Map",
+        description="How the image lies on the mesh. Empty for the map that renders use",
+        search=uv_map_names,
+        update=show_mask,
+    )
+    channel: EnumProperty(
+        name="Channel",
+        description="Which part of the colour counts",
+        items=CHANNELS,
+        update=show_mask,
+    )
+    invert: BoolProperty(
+        name="Invert",
+        description="What is 1 is covered, what is 0 is bare, as of a vertex group that holds "
+        "what clothes cover",
+        update=show_mask,
+    )
+    strength: FloatProperty(
+        name="Strength",
+        description="How much sun the cloth holds back: 1 is all of it, 0.5 lets half through",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        update=show_mask,
+    )

@@ -1,0 +1,134 @@
+"""What the mask's nodes in a tan's group read, and setting it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+import bpy
+
+from hylios.errors import InputError
+
+from .changes import Changes
+from .masks import COLOURS, Mask, require_usable
+from .nodes import complete, find_input, of_role
+from .ownership import Users, is_local, remembered
+from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY
+from .vertex_groups import copied
+
+WEIGHTS = {
+    "MEAN": (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
+    "RED": (1.0, 0.0, 0.0),
+    "GREEN": (0.0, 1.0, 0.0),
+    "BLUE": (0.0, 0.0, 1.0),
+    "ALPHA": (0.0, 0.0, 0.0),
+}
+"""Of red, green and blue in the number that a channel gives."""
+
+NUMBER, NOTHING = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class ShownMask:
+    """What the nodes read: an attribute or an image, or neither where the whole body is bare.
+
+    Attributes
+    ----------
+    attribute : str
+    image : Image or None
+    uv_map : str
+    weights : 3 floats
+        Of red, green and blue.
+    alpha : float
+        Weight of alpha.
+    slope, offset : float
+        From the number to the share of the dose.
+    """
+
+    attribute: str = ""
+    image: bpy.types.Image | None = None
+    uv_map: str = ""
+    weights: tuple[float, float, float] = NOTHING
+    alpha: float = 0.0
+    slope: float = 1.0
+    offset: float = 0.0
+
+    def values(self) -> Mapping[str, Mapping[int, Any]]:
+        """By roles and numbers of inputs."""
+        of_image, bare = self.image is not None, self.image is None and not self.attribute
+        return {
+            "mask_channel": {1: NOTHING if of_image else self.weights},
+            "mask_alpha": {1: 0.0 if of_image else self.alpha},
+            "image_channel": {1: self.weights if of_image else NOTHING},
+            "image_alpha": {1: self.alpha if of_image else 0.0},
+            "mask_share": {1: self.slope, 2: self.offset},
+            "share": {1: 1.0 if bare else 0.0},
+        }
+
+
+def slope_and_offset(mask: Mask) -> tuple[float, float]:
+    """How the share of the dose follows from a mask's number: a factor, and what is added."""
+    return (-mask.strength, 1.0) if mask.invert else (mask.strength, 1.0 - mask.strength)
+
+
+def shown_mask(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask:
+    """What the nodes read for a mask; a vertex group is copied for them.
+
+    Raises
+    ------
+    InputError
+        If the mask cannot be used.
+    """
+    source = require_usable(obj, mask)
+    if source is None:
+        return ShownMask()
+    slope, offset = slope_and_offset(mask)
+    weights = WEIGHTS.get(mask.channel, WEIGHTS["MEAN"])
+    alpha = 1.0 if mask.channel == "ALPHA" else 0.0
+    if source.kind == "IMAGE":
+        return ShownMask("", mask.image, mask.uv_map, weights, alpha, slope, offset)
+    if source.data_type not in COLOURS:
+        weights, alpha = NUMBER, 0.0
+    name = source.name
+    if source.kind == "GROUP":
+        name = copied(obj, name, changes)
+    return ShownMask(name, None, "", weights, alpha, slope, offset)
+
+
+def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes) -> None:
+    """Have the mask's nodes of a group read something else."""
+    if shown.image is not None and any(of_role(group, "mask_value")):
+        made = [role for role in IMAGE_ROLES if not any(of_role(group, role))]
+        changes.may_add_to(group.nodes)
+        changes.may_relink(group)
+        complete(group, made, IMAGE_ROLES, IMAGE_LINKS)
+    for role, values in shown.values().items():
+        for node in of_role(group, role):
+            for socket, value in values.items():
+                changes.set(find_input(node, socket), "default_value", value)
+    for node in of_role(group, "mask"):
+        changes.set(node, "attribute_name", shown.attribute)
+    for node in of_role(group, "mask_uv"):
+        changes.set(node, "uv_map", shown.uv_map)
+    for node in of_role(group, "mask_image"):
+        changes.set(node, "image", shown.image)
+
+
+def show_at_once(obj: bpy.types.Object, mask: Mask) -> bool:
+    """Have a tan that is there show another mask, without Apply; whether it does.
+
+    It does not where other objects show the tan's nodes too, where the mask cannot be used, or
+    while Blender renders.
+    """
+    group = remembered(obj).group
+    if group is None or group.get(LAYOUT_KEY) != LAYOUT or bpy.app.is_job_running("RENDER"):
+        return False
+    if not (is_local(group) and is_local(cast(bpy.types.ID, obj.data))):
+        return False
+    if Users().others(group, obj):
+        return False
+    try:
+        with Changes() as changes:
+            show(group, shown_mask(obj, mask, changes), changes)
+    except InputError:
+        return False
+    return True

@@ -1,0 +1,59 @@
+"""What a mask reads, and how."""
+
+from typing import Any, cast
+
+import bpy
+
+from ..props import SkinTanMask, settings_of
+from ..scene import masks
+from .lines import draw_lines
+
+
+def draw_object_mask(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
+) -> None:
+    """The mask of all exposures that have none of their own."""
+    settings = settings_of(obj)
+    if settings.mask.source == "" and settings.mask_attribute:
+        # A file of version 0.1.0 has its name there.
+        layout.prop(settings, "mask_attribute", text="", icon="MOD_MASK")
+    else:
+        layout.prop(settings.mask, "source", text="", icon="MOD_MASK")
+    _draw_reading(layout, obj, settings.mask, settings.object_mask(), context)
+
+
+def draw_mask(
+    layout: bpy.types.UILayout,
+    obj: bpy.types.Object,
+    settings: SkinTanMask,
+    context: bpy.types.Context,
+) -> None:
+    """A mask of one exposure."""
+    layout.prop(settings, "source", text="", icon="MOD_MASK")
+    _draw_reading(layout, obj, settings, masks.Mask.of(settings), context)
+
+
+def _draw_reading(
+    layout: bpy.types.UILayout,
+    obj: bpy.types.Object,
+    settings: SkinTanMask,
+    mask: masks.Mask,
+    context: bpy.types.Context,
+) -> None:
+    if not mask:
+        layout.label(text="No mask: the whole body is bare", icon="INFO")
+        return
+    layer = cast(Any, context).view_layer
+    source = masks.source_of(obj, mask, layer.depsgraph if layer else None)
+    if source is None:
+        draw_lines(layout, ("The mesh has no such mask any more:", "choose another one"), "ERROR")
+        return
+    if source.kind == "IMAGE":
+        if settings.image and settings.image.name != settings.source:
+            layout.label(text=settings.image.name, icon="IMAGE_DATA")
+        layout.prop(settings, "uv_map", text="", icon="GROUP_UVS")
+    if source.has_channels:
+        layout.prop(settings, "channel")
+    row = layout.row(align=True)
+    row.prop(settings, "strength")
+    row.prop(settings, "invert")

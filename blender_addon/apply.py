@@ -43,7 +43,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     """
     obj = tannable(obj)
     settings = settings_of(obj)
-    for mask in {*settings.masks(), settings.shown_mask()}:
+    for mask in {*settings.masks(), settings.shown_mask(), settings.worn_film_mask()}:
         masks.require_usable(obj, mask)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)
@@ -63,7 +63,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
             skin.group, mask_nodes.shown_mask(obj, settings.shown_mask(), changes), changes
         )
         worn = _film(settings.film, sampled.roughness)
-        film.show(skin.group, skin.trees(), worn, sampled.level, changes)
+        where = film.where(obj, settings.worn_film_mask(), changes)
+        film.show(skin.group, skin.trees(), worn, where, sampled.level, changes)
         remember_source(skin.group, settings, values, tan, changes)
         in_view = keep_view(skin.group, changes)
         attached = skin.attach(changes)

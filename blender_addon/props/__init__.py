@@ -1,7 +1,7 @@
 """What an artist sets on an object."""
 
 from .exposure import SkinTanExposure
-from .mask import SkinTanMask
+from .mask import SkinTanFilmMask, SkinTanMask
 from .material import SkinTanMaterial
 from .object import SkinTanSettings, settings_of, table_file
 from .scene import SkinTanScene
@@ -9,6 +9,7 @@ from .scene import SkinTanScene
 __all__ = [
     "CLASSES",
     "SkinTanExposure",
+    "SkinTanFilmMask",
     "SkinTanMask",
     "SkinTanMaterial",
     "SkinTanScene",
@@ -17,4 +18,11 @@ __all__ = [
     "table_file",
 ]
 
-CLASSES = (SkinTanMask, SkinTanExposure, SkinTanMaterial, SkinTanSettings, SkinTanScene)
+CLASSES = (
+    SkinTanMask,
+    SkinTanFilmMask,
+    SkinTanExposure,
+    SkinTanMaterial,
+    SkinTanSettings,
+    SkinTanScene,
+)

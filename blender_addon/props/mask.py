@@ -68,6 +68,20 @@ def take_attribute(settings: Any, context: bpy.types.Context) -> None:
         settings.mask.source = settings.mask_attribute
 
 
+UV_MAP = StringProperty(
+    name="UV Map",
+    description="How the image lies on the mesh. Empty for the map that renders use",
+    search=uv_map_names,
+    update=show_mask,
+)
+CHANNEL = EnumProperty(
+    name="Channel",
+    description="Which part of the colour counts",
+    items=CHANNELS,
+    update=show_mask,
+)
+
+
 class SkinTanMask(bpy.types.PropertyGroup):
     source: StringProperty(
         name="Mask",
@@ -82,18 +96,8 @@ class SkinTanMask(bpy.types.PropertyGroup):
         type=bpy.types.Image,
         update=take_image,
     )
-    uv_map: StringProperty(
-        name="UV Map",
-        description="How the image lies on the mesh. Empty for the map that renders use",
-        search=uv_map_names,
-        update=show_mask,
-    )
-    channel: EnumProperty(
-        name="Channel",
-        description="Which part of the colour counts",
-        items=CHANNELS,
-        update=show_mask,
-    )
+    uv_map: UV_MAP
+    channel: CHANNEL
     invert: BoolProperty(
         name="Invert",
         description="What is 1 is covered, what is 0 is bare, as of a vertex group that holds "
@@ -103,6 +107,40 @@ class SkinTanMask(bpy.types.PropertyGroup):
     strength: FloatProperty(
         name="Strength",
         description="How much sun the cloth holds back: 1 is all of it, 0.5 lets half through",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+        update=show_mask,
+    )
+
+
+class SkinTanFilmMask(bpy.types.PropertyGroup):
+    """Like `SkinTanMask`, of where a film lies."""
+
+    source: StringProperty(
+        name="Film Mask",
+        description="What says where the film lies: 0 is dry, 1 is covered. A vertex group, an "
+        "attribute of points, corners or faces, or an image",
+        search=usable_names,
+        update=take_source,
+    )
+    image: PointerProperty(
+        name="Image",
+        description="The image that is the mask: black is dry, white is covered",
+        type=bpy.types.Image,
+        update=take_image,
+    )
+    uv_map: UV_MAP
+    channel: CHANNEL
+    invert: BoolProperty(
+        name="Invert",
+        description="What is 1 is dry, what is 0 is covered",
+        update=show_mask,
+    )
+    strength: FloatProperty(
+        name="Strength",
+        description="How much of the skin the film covers where the mask is 1",
         default=1.0,
         min=0.0,
         max=1.0,

@@ -34,7 +34,7 @@ from ..model.settings import (
 from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
 from ..scene.masks import Mask
 from .exposure import SkinTanExposure
-from .mask import SkinTanMask, take_attribute, usable_names
+from .mask import SkinTanFilmMask, SkinTanMask, take_attribute, usable_names
 from .material import SkinTanMaterial
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
@@ -161,6 +161,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         items=FILMS,
         default="NONE",
     )
+    film_mask: PointerProperty(
+        name="Film Mask",
+        description="Where the film lies; without a mask it lies everywhere",
+        type=SkinTanFilmMask,
+    )
     mask: PointerProperty(
         name="Mask",
         description="Where the sun reaches, for all exposures without a mask of their own",
@@ -273,6 +278,10 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         """The mask of all exposures that have none of their own."""
         mask = Mask.of(self.mask)
         return mask or replace(mask, source=self.mask_attribute)
+
+    def worn_film_mask(self) -> Mask:
+        """Where the film lies; no mask where there is no film."""
+        return Mask() if self.film == "NONE" else Mask.of(self.film_mask)
 
     def masks(self) -> tuple[Mask, ...]:
         """The masks of the exposures that count, in their order."""

@@ -5,11 +5,15 @@ not fill it. Beneath it the skin has another base colour, and hardly any gloss o
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from . import nodes
+import bpy
+
+from . import mask_nodes, nodes, plan
 from .changes import Changes
+from .mask_nodes import ShownMask
+from .masks import Mask
 from .plan import INDEX, ROLE_KEY, Link, Role, math_role, vector_role
 
 FILM = "Film"
@@ -56,6 +60,13 @@ UNTOUCHED = {"IOR": INDEX, "Coat Weight": 0.0}
 """Inputs of a shader that a film is linked to where the artist has left them so."""
 
 
+PREFIX = "film_"
+"""Of the roles of nodes that read where the film lies: those that read where the sun reaches."""
+
+FIRST = PREFIX + "mask_value"
+MASK = ("mask", "mask_channel", "mask_alpha", "mask_value", "mask_share", "share")
+
+
 @dataclass(frozen=True)
 class Film:
     """A film for the group's nodes.
@@ -80,8 +91,28 @@ class Film:
     slope: tuple[float, float, float]
 
 
+def where(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask:
+    """What nodes read of a mask of a film: as much as its number, and its strength at most.
+
+    Raises
+    ------
+    InputError
+        If the mask cannot be used.
+    """
+    slope, offset = (-mask.strength, mask.strength) if mask.invert else (mask.strength, 0.0)
+    return replace(mask_nodes.shown_mask(obj, mask, changes), slope=slope, offset=offset)
+
+
+NOWHERE = ShownMask(slope=0.0)
+
+
 def show(
-    group: Any, trees: Collection[Any], film: Film | None, level: float, changes: Changes
+    group: Any,
+    trees: Collection[Any],
+    film: Film | None,
+    mask: ShownMask,
+    level: float,
+    changes: Changes,
 ) -> None:
     """Have a tan's group show a film, or none; with a first film it gets the nodes for one.
 
@@ -91,12 +122,15 @@ def show(
     ----------
     trees
         That may hold nodes which show the group.
+    mask : ShownMask
+        Where the film lies, from `where`; without a source it is everywhere.
     level : float
         Base colour of a shader over the colour, seen straight on.
     """
     lacks_nodes = not any(nodes.of_role(group, "film"))
     if film is not None and lacks_nodes and not nodes.has_own_shader(group):
         _add(group, trees, changes)
+    _show_mask(group, mask if film else NOWHERE, changes)
     if film is not None or FILM_KEY in group:
         changes.set_key(group, FILM_KEY, film.liquid if film else "")
     for role, values in _values(film, level).items():
@@ -106,6 +140,21 @@ def show(
     for node in _coated(group) if film is not None else ():
         for name, value in (("Coat IOR", film.index), ("Coat Roughness", film.roughness)):
             changes.set(nodes.find_input(node, name), "default_value", value)
+
+
+def _show_mask(group: Any, mask: ShownMask, changes: Changes) -> None:
+    """Have nodes read where the film lies; a group gets them with its first such mask."""
+    masked = bool(mask.attribute or mask.image)
+    if masked and any(nodes.of_role(group, "film")) and not any(nodes.of_role(group, FIRST)):
+        changes.may_add_to(group.nodes)
+        changes.may_relink(group)
+        roles, links = mask_nodes.prefixed(
+            {role: plan.ROLES[role] for role in MASK},
+            [link for link in plan.LINKS if {link[0], link[2]} <= set(MASK)],
+            PREFIX,
+        )
+        nodes.complete(group, roles, roles, [*links, (PREFIX + "share", "Value", "film", 1)])
+    mask_nodes.show(group, mask, changes, PREFIX)
 
 
 def is_shown(group: Any) -> bool:
@@ -160,7 +209,7 @@ def _values(film: Film | None, level: float) -> dict[str, dict[str | int, Any]]:
     """
     bare = {"film": {1: float(film is not None)}, "film_level": {2: (level,) * 3}}
     if film is None:
-        return bare
+        return bare | {PREFIX + "share": {1: 0.0}}
     beneath = INDEX / film.index
     return bare | {
         "film_colour": {

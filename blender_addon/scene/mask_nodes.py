@@ -1,7 +1,7 @@
 """What the mask's nodes in a tan's group read, and setting it."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import bpy
@@ -12,7 +12,7 @@ from .changes import Changes
 from .masks import COLOURS, Mask, require_usable
 from .nodes import complete, find_input, of_role
 from .ownership import Users, is_local, remembered
-from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY
+from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY, Link, Role
 from .vertex_groups import copied
 
 WEIGHTS = {
@@ -94,23 +94,41 @@ def shown_mask(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask
     return ShownMask(name, None, "", weights, alpha, slope, offset)
 
 
-def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes) -> None:
-    """Have the mask's nodes of a group read something else."""
-    if shown.image is not None and any(of_role(group, "mask_value")):
-        made = [role for role in IMAGE_ROLES if not any(of_role(group, role))]
+def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: str = "") -> None:
+    """Have the nodes of a mask read something else; those of another mask by their prefix."""
+    if shown.image is not None and any(of_role(group, prefix + "mask_value")):
+        roles, links = prefixed(IMAGE_ROLES, IMAGE_LINKS, prefix)
+        made = [role for role in roles if not any(of_role(group, role))]
         changes.may_add_to(group.nodes)
         changes.may_relink(group)
-        complete(group, made, IMAGE_ROLES, IMAGE_LINKS)
+        complete(group, made, roles, links)
     for role, values in shown.values().items():
-        for node in of_role(group, role):
+        for node in of_role(group, prefix + role):
             for socket, value in values.items():
                 changes.set(find_input(node, socket), "default_value", value)
-    for node in of_role(group, "mask"):
-        changes.set(node, "attribute_name", shown.attribute)
-    for node in of_role(group, "mask_uv"):
-        changes.set(node, "uv_map", shown.uv_map)
-    for node in of_role(group, "mask_image"):
-        changes.set(node, "image", shown.image)
+    for role, name, value in (
+        ("mask", "attribute_name", shown.attribute),
+        ("mask_uv", "uv_map", shown.uv_map),
+        ("mask_image", "image", shown.image),
+    ):
+        for node in of_role(group, prefix + role):
+            changes.set(node, name, value)
+
+
+def prefixed(
+    roles: Mapping[str, Role], links: Iterable[Link], prefix: str
+) -> tuple[dict[str, Role], list[Link]]:
+    """Roles and the links between them for another mask, higher up in the tree."""
+    height = 1500 if prefix else 0
+    moved = {
+        prefix + name: replace(role, location=(role.location[0], role.location[1] + height))
+        for name, role in roles.items()
+    }
+    inner = [
+        (prefix + source, output, prefix + target, socket)
+        for source, output, target, socket in links
+    ]
+    return moved, inner
 
 
 def show_at_once(obj: bpy.types.Object, mask: Mask) -> bool:

@@ -133,7 +133,8 @@ def mask_names(obj: bpy.types.Object) -> set[str]:
     """Names of all sources of an object's masks."""
     settings = remembered(obj)
     own = (exposure.mask.source for exposure in settings.exposures if exposure.own_mask)
-    return {settings.mask.source, settings.mask_attribute, *own} - {""}
+    sources = settings.mask.source, settings.mask_attribute, settings.film_mask.source
+    return {*sources, *own} - {""}
 
 
 def _copies(mesh: bpy.types.Mesh) -> dict[str, str]:

@@ -4,9 +4,11 @@ from typing import Any, cast
 
 import bpy
 
-from ..props import SkinTanMask, settings_of
+from ..props import SkinTanFilmMask, SkinTanMask, settings_of
 from ..scene import masks
 from .lines import draw_lines
+
+BARE = "No mask: the whole body is bare"
 
 
 def draw_object_mask(
@@ -19,29 +21,31 @@ def draw_object_mask(
         layout.prop(settings, "mask_attribute", text="", icon="MOD_MASK")
     else:
         layout.prop(settings.mask, "source", text="", icon="MOD_MASK")
-    _draw_reading(layout, obj, settings.mask, settings.object_mask(), context)
+    _draw_reading(layout, obj, settings.mask, settings.object_mask(), context, BARE)
 
 
 def draw_mask(
     layout: bpy.types.UILayout,
     obj: bpy.types.Object,
-    settings: SkinTanMask,
+    settings: SkinTanMask | SkinTanFilmMask,
     context: bpy.types.Context,
+    without: str = BARE,
 ) -> None:
-    """A mask of one exposure."""
+    """A mask of one exposure or of the film, and what it means to have none."""
     layout.prop(settings, "source", text="", icon="MOD_MASK")
-    _draw_reading(layout, obj, settings, masks.Mask.of(settings), context)
+    _draw_reading(layout, obj, settings, masks.Mask.of(settings), context, without)
 
 
 def _draw_reading(
     layout: bpy.types.UILayout,
     obj: bpy.types.Object,
-    settings: SkinTanMask,
+    settings: SkinTanMask | SkinTanFilmMask,
     mask: masks.Mask,
     context: bpy.types.Context,
+    without: str,
 ) -> None:
     if not mask:
-        layout.label(text="No mask: the whole body is bare", icon="INFO")
+        layout.label(text=without, icon="INFO")
         return
     layer = cast(Any, context).view_layer
     source = masks.source_of(obj, mask, layer.depsgraph if layer else None)

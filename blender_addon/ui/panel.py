@@ -15,7 +15,7 @@ from ..props import SkinTanSettings, settings_of
 from ..scene.timeline import shown_day
 from .exposures import draw_exposures
 from .lines import draw_lines
-from .masks import draw_object_mask
+from .masks import draw_mask, draw_object_mask
 from .materials import draw_materials
 from .size import draw_size
 
@@ -35,7 +35,7 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
             layout.label(text="Select a mesh object", icon="INFO")
             return
         settings = settings_of(obj)
-        _draw_skin(_section(layout, "Skin"), settings)
+        _draw_skin(_section(layout, "Skin"), obj, context)
         draw_exposures(_section(layout, "Time in the Sun"), obj, context)
         draw_object_mask(_section(layout, "Mask: Where the Sun Reaches"), obj, context)
         draw_materials(_section(layout, "Materials"), obj)
@@ -61,12 +61,17 @@ def _section(layout: bpy.types.UILayout, title: str) -> bpy.types.UILayout:
     return column
 
 
-def _draw_skin(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
+def _draw_skin(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
+) -> None:
+    settings = settings_of(obj)
     layout.prop(settings, "skin", text="")
     if settings.skin == FILE:
         layout.prop(settings, "table_path", text="")
     draw_lines(layout, *skin_lines(settings))
     layout.prop(settings, "film")
+    if settings.film != "NONE":
+        draw_mask(layout, obj, settings.film_mask, context, "No mask: it lies everywhere")
     layout.prop(settings, "own_minimal_doses")
     if settings.own_minimal_doses:
         column = layout.column(align=True)

@@ -126,3 +126,37 @@ def test_an_error_takes_the_film_s_nodes_back(body, monkeypatch):
     assert {node.name for node in tan_group(body).nodes} == names
     assert len(tan_group(body).links) == links
     assert len(tan_group(body).interface.items_tree) == sockets
+
+
+def test_a_mask_says_where_the_film_lies(table_path, tmp_path):
+    """As much as its number says, of an attribute or a vertex group, inverted, half as strong."""
+    obj = tan_object(table_path, np.array([0.0, 0.25, 1.0]), dose=0.0)
+    obj.skin_tan.mask.source = ""
+    white_world()
+    add_camera((1.5, 0.5, 5.0), 3.0)
+    group = obj.vertex_groups.new(name="wet")
+    for point, weight in enumerate(np.repeat([0.0, 0.25, 1.0], 4)):
+        group.add([point], float(weight), "REPLACE")
+    obj.skin_tan.film_mask.source = "sun"
+    worn(obj, "WATER")
+    covered = film_shares(obj)
+    assert covered(tmp_path) == pytest.approx([0.0, 0.25, 1.0], abs=1e-3)
+    mask = obj.skin_tan.film_mask
+    mask.source, mask.invert, mask.strength = "wet", True, 0.5
+    assert apply(obj) == {"FINISHED"}
+    assert covered(tmp_path) == pytest.approx([0.5, 0.375, 0.0], abs=1e-3)
+    mask.source, mask.invert, mask.strength = "", False, 1.0
+    assert apply(obj) == {"FINISHED"}
+    assert covered(tmp_path) == pytest.approx([1.0, 1.0, 1.0], abs=1e-3)
+    mask.source = "sun"
+    worn(obj, "NONE")
+    assert covered(tmp_path) == pytest.approx([0.0, 0.0, 0.0], abs=1e-3)
+
+
+def film_shares(obj):
+    """A function that renders how much of each of three squares the film covers."""
+    tree = tan_group(obj)
+    emission = tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(of_role(obj, "film").outputs[0], emission.inputs["Color"])
+    tree.links.new(emission.outputs[0], of_role(obj, "output").inputs["Surface"])
+    return lambda folder: render(folder / "film.exr", width=9, height=3)[1, 1::3, 0]

@@ -160,3 +160,14 @@ def film_shares(obj):
     tree.links.new(of_role(obj, "film").outputs[0], emission.inputs["Color"])
     tree.links.new(emission.outputs[0], of_role(obj, "output").inputs["Surface"])
     return lambda folder: render(folder / "film.exr", width=9, height=3)[1, 1::3, 0]
+
+
+def test_a_copy_made_for_one_of_two_objects_is_covered(body):
+    """The other one stays dry."""
+    worn(body, "NONE")
+    other = body.copy()
+    bpy.context.collection.objects.link(other)
+    worn(other, "OIL")
+    assert tan_group(other) != tan_group(body)
+    assert group_node(other).inputs["Film"].default_value == 1.0
+    assert not film_nodes(body)

@@ -34,7 +34,7 @@ def test_the_render_needs_no_add_on(tmp_path, table_path, view):
     body = bpy.context.object
     body.skin_tan.skin, body.skin_tan.table_path = "FILE", settings.table_path
     body.skin_tan.exposures.add().dose = 30.0
-    body.skin_tan.film = "SUNSCREEN"
+    body.skin_tan.film = "OIL"
     add_mask(body, [1.0 if vertex.co.x > 0 else 0.0 for vertex in body.data.vertices])
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     bpy.context.scene.skin_tan.view = view

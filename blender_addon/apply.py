@@ -18,6 +18,7 @@ from .scene import (
     images,
     layout_1,
     mask_nodes,
+    mask_values,
     masks,
     nodes,
     size,
@@ -59,9 +60,9 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
         replaced = nodes.update(skin.group, sampled, changes)
-        mask_nodes.show(
-            skin.group, mask_nodes.shown_mask(obj, settings.shown_mask(), changes), changes
-        )
+        mask = settings.shown_mask()
+        shown = mask_nodes.shown_mask(obj, mask, changes)
+        mask_nodes.show(skin.group, shown, changes)
         worn = _film(settings.film, sampled.roughness)
         where = film.where(obj, settings.worn_film_mask(), changes)
         film.show(skin.group, skin.trees(), worn, where, sampled.level, changes)
@@ -73,6 +74,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
+        said += mask_values.remarks(obj, mask, shown)
         said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import bpy
 
-from . import live, ops, props, ui
+from . import live, ops, painting, props, ui
 
 CLASSES = (*props.CLASSES, *ops.CLASSES, *ui.CLASSES)
 
@@ -17,9 +17,11 @@ def register():
     scenes: Any = bpy.types.Scene
     scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
     live.register()
+    painting.register()
 
 
 def unregister():
+    painting.unregister()
     live.unregister()
     objects: Any = bpy.types.Object
     del objects.skin_tan

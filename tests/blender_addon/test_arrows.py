@@ -8,7 +8,8 @@ import pytest
 ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
-    "registration.py": {"live", "ops", "props", "ui"},
+    "registration.py": {"live", "ops", "painting", "props", "ui"},
+    "painting.py": {"scene"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
     "applied.py": {"scene", "props"},
     "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},

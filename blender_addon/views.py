@@ -56,7 +56,11 @@ def switch_view(view: str) -> str:
         groups = views.groups_of_file()
         own = [group for group in groups if is_local(group)]
         band = _bands(view)
-        failed = {group: why for group in own if (why := _switch(group, view, band, changes))}
+        failed = {
+            group: why
+            for group in own
+            if (why := _switch(group, views.trees_of(group, groups[group]), view, band, changes))
+        }
         if own and len(failed) == len(own):
             raise InputError(_sentence(failed, groups))
         views.set_view_of_file(None if view == VISIBLE else view, changes)
@@ -72,10 +76,13 @@ def switch_view(view: str) -> str:
     )
 
 
-def keep_view(group: Any, changes: Changes) -> list[str]:
-    """Have a group whose look has changed show the view of the file; a sentence where it cannot."""
+def keep_view(group: Any, trees: list[Any], changes: Changes) -> list[str]:
+    """Have a group whose look has changed show the view of the file; a sentence where it cannot.
+
+    The trees lead to it from materials.
+    """
     view = views.view_of_file() or VISIBLE
-    why = _switch(group, view, _bands(view), changes)
+    why = _switch(group, trees, view, _bands(view), changes)
     views.remove_unused_images(changes)
     return [f"It shows the visible, not {_called(view)}: {why}."] if why else []
 
@@ -84,16 +91,16 @@ Bands = Callable[[Any], views.Band]
 """What a group shows in a view; raises InputError where it has no such band."""
 
 
-def _switch(group: Any, view: str, band: Bands, changes: Changes) -> str:
+def _switch(group: Any, trees: list[Any], view: str, band: Bands, changes: Changes) -> str:
     """Switch one group; why it shows the visible, where it should not."""
     if view != VISIBLE:
         try:
-            views.show(group, band(group), changes)
+            views.show(group, trees, band(group), changes)
         except InputError as error:
-            views.hide(group, changes)
+            views.hide(group, trees, changes)
             return str(error).rstrip(".")
         return ""
-    views.hide(group, changes)
+    views.hide(group, trees, changes)
     return ""
 
 

@@ -181,6 +181,14 @@ def has_own_shader(group: bpy.types.NodeTree) -> bool:
     return not list(of_role(group, "skin"))
 
 
+def bridge(tree: Any, kept: Any, given: Any) -> None:
+    """Link what is linked to an input of a node to all that one of its outputs is linked to."""
+    ends = [link.to_socket for link in given.links]
+    for link in list(kept.links):
+        for end in ends:
+            tree.links.new(link.from_socket, end)
+
+
 def of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
     """Nodes of a role: an artist may have duplicated some."""
     return (node for node in group.nodes if node.get(ROLE_KEY) == role)

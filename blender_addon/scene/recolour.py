@@ -1,8 +1,9 @@
 """The tan in an artist's material: a factor between a colour's source and the shader.
 
 Two kinds of node come into a tree, and say so in a custom property: one that shows the tan's group,
-and for every shader one that multiplies its colour by the group's Ratio. Taking them out gives back
-what was there before, with all that the artist has changed meanwhile.
+and for every shader one that multiplies its colour by the group's Ratio. In a view a third comes
+behind each of these, which shows the view's colour. Taking them out gives back what was there
+before, with all that the artist has changed meanwhile.
 """
 
 from collections.abc import Iterable, Iterator
@@ -11,9 +12,10 @@ from typing import Any
 import bpy
 
 from .changes import Changes
+from .nodes import bridge, find_input, find_output
 from .trees import all_nested, shaders, tree_of
 
-INSERTED, TAN, FACTOR = "skin_tan_inserted", "tan", "factor"
+INSERTED, TAN, FACTOR, INSTEAD = "skin_tan_inserted", "tan", "factor", "instead"
 """Custom property of a node in an artist's tree, and what it says the node is for."""
 
 PLACE = "skin_tan_place"
@@ -125,10 +127,43 @@ def _is_fed_by_tan(factor: Any) -> bool:
 
 def take_out(tree: Any) -> None:
     """Take what `insert` put into a tree out again; the colours' sources lead to the shaders."""
+    show_painted(tree)
     for factor in reversed(inserted(tree, FACTOR)):
         _take_out_factor(tree, factor)
     for tan in inserted(tree, TAN):
         tree.nodes.remove(tan)
+
+
+def show_instead(tree: Any, output: str, changes: Changes) -> None:
+    """Have a tree's shaders show an output of the tan's group in place of the painted colour."""
+    plain = [factor for factor in inserted(tree, FACTOR) if not _has_instead(factor)]
+    if not plain:
+        return
+    changes.may_add_to(tree.nodes)
+    changes.may_relink(tree)
+    for factor in plain:
+        tans = [link.from_node for link in factor.inputs[1].links]
+        if not tans or tans[0].get(INSERTED) != TAN:
+            continue
+        x, y = factor.location
+        node = _new(tree, "ShaderNodeMix", INSTEAD, (x + 20, y - 40))
+        node.data_type, node.label, node.parent = "RGBA", "In place of the colour", factor.parent
+        find_input(node, "Factor_Float").default_value = 1.0
+        for end in [link.to_socket for link in factor.outputs[0].links]:
+            tree.links.new(find_output(node, "Result_Color"), end)
+        tree.links.new(factor.outputs[0], find_input(node, "A_Color"))
+        tree.links.new(tans[0].outputs[output], find_input(node, "B_Color"))
+
+
+def show_painted(tree: Any) -> None:
+    """Have a tree's shaders show the painted colour again."""
+    for node in inserted(tree, INSTEAD):
+        bridge(tree, find_input(node, "A_Color"), find_output(node, "Result_Color"))
+        tree.nodes.remove(node)
+
+
+def _has_instead(factor: Any) -> bool:
+    return any(link.to_node.get(INSERTED) == INSTEAD for link in factor.outputs[0].links)
 
 
 def _take_out_factor(tree: Any, factor: Any) -> None:

@@ -14,7 +14,7 @@ from mathutils import Color
 
 from hylios.errors import InputError
 
-from . import nodes, slots
+from . import nodes, recolour, slots
 from .changes import Changes
 from .ownership import is_local
 from .plan import ROLE_KEY, Link, Role
@@ -155,8 +155,15 @@ def groups_of_file() -> dict[Any, list[bpy.types.Object]]:
     return shown
 
 
-def show(group: Any, band: Band, changes: Changes) -> None:
+def trees_of(group: Any, objects: Iterable[bpy.types.Object]) -> list[Any]:
+    """Local trees that lead to a group from the materials of objects."""
+    return list(dict.fromkeys(tree for obj in objects for tree in slots.shown_trees(obj, group)))
+
+
+def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None:
     """Have a tan's group show a band in place of the visible, or another band.
+
+    So do recoloured materials, of which the trees are, in place of their painted colours.
 
     Raises
     ------
@@ -193,11 +200,15 @@ def show(group: Any, band: Band, changes: Changes) -> None:
         for node in nodes.of_role(group, role):
             changes.set(node, "image", band.image)
     changes.set_key(group, VIEW_KEY, band.view)
+    for tree in trees:
+        recolour.show_instead(tree, "Colour", changes)
 
 
-def hide(group: Any, changes: Changes) -> None:
+def hide(group: Any, trees: Iterable[Any], changes: Changes) -> None:
     """Have a tan's group show the visible again, when all else is done."""
     changes.at_the_end(partial(_take_out, group))
+    for tree in trees:
+        changes.at_the_end(partial(recolour.show_painted, tree))
 
 
 def remove_unused_images(changes: Changes) -> None:
@@ -230,18 +241,11 @@ def _stand_in(group: Any, role: str) -> None:
 def _take_out(group: Any) -> None:
     for role, plan in STAND_INS.items():
         for node in nodes.of_role(group, role):
-            _restore(group, nodes.find_input(node, plan.input), nodes.find_output(node, plan.gives))
+            kept = nodes.find_input(node, plan.input)
+            nodes.bridge(group, kept, nodes.find_output(node, plan.gives))
     for node in [node for role in ROLES for node in nodes.of_role(group, role)]:
         group.nodes.remove(node)
     group.pop(VIEW_KEY, None)
-
-
-def _restore(tree: Any, kept: Any, given: Any) -> None:
-    """Link what is linked to an input of a node to all that one of its outputs is linked to."""
-    ends = [link.to_socket for link in given.links]
-    for link in list(kept.links):
-        for end in ends:
-            tree.links.new(link.from_socket, end)
 
 
 def _remove_unused_images() -> None:

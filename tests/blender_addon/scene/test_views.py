@@ -3,15 +3,19 @@
 import bpy
 import numpy as np
 import pytest
+from artist_skins import PAINTED, grouped, layered, plain, textured
 from scenes import add_camera, apply, pixels, render, tan_group, tan_object, white_world
-from synthetic import MED, MMD
+from synthetic import MED, MMD, ROUGHNESS
 from test_changes import contents, inventory
+from test_recolour import base_colours, body_in
 from test_shader import show_emission_of
 
 from blender_addon import views as switching
 from blender_addon.model.catalogue import shipped_path
+from blender_addon.model.layer import let_through
 from blender_addon.model.views import VIEWS
 from blender_addon.scene import changes as changes_module
+from blender_addon.scene import recolour
 from hylios.table import melanin_dynamics, minimal_doses, read_table
 from hylios.tanning import Exposures, simulate
 
@@ -290,3 +294,53 @@ def test_linked_skin_stays_as_it_is(bodies, tmp_path):
 def test_a_view_that_is_not_there():
     with pytest.raises(TypeError):
         switch("NM700")
+
+
+@pytest.fixture
+def dressed(table_path):
+    """A body in materials of an artist's."""
+    materials = [make(f"skin {make.__name__}") for make in (plain, textured, grouped, layered)]
+    obj = body_in(table_path, materials)
+    trees = [material.node_tree for material in materials]
+    trees += [group for group in bpy.data.node_groups]
+    before = [contents(tree) for tree in trees]
+    apply(obj)
+    return obj, trees, before
+
+
+def test_recoloured_materials_show_the_view_in_place_of_paint(tmp_path, table, dressed):
+    obj, trees, _ = dressed
+    count = len(obj.material_slots)
+    recoloured = [contents(tree) for tree in trees]
+    add_camera((count / 2, 0.5, 5.0), count)
+    let_out = base_colours(tmp_path, count)[:3] / PAINTED
+    switch("NM1650")
+    states = np.array([[*table.axes.untanned, 1.0, 1.0]])
+    total = table.plane("band_reflectance", states)[0, 2]
+    surface = 1.0 - float(let_through(ROUGHNESS, 8.0))
+    expected = (total - surface) * np.array(TINTS["NM1650"])
+    assert base_colours(tmp_path, count)[:3] == pytest.approx(let_out * expected, abs=1e-3)
+    switch("NM365")
+    switch("VISIBLE")
+    assert [contents(tree) for tree in trees] == recoloured
+
+
+def test_paint_comes_back_where_the_tan_is_removed_in_a_view(dressed):
+    obj, trees, before = dressed
+    switch("NM365")
+    for tree in trees:
+        recolour.take_out(tree)
+    assert [contents(tree) for tree in trees] == before
+
+
+def test_a_material_that_is_recoloured_in_a_view_shows_it(table_path, bodies):
+    switch("NM365")
+    obj = body_in(table_path, [plain("skin")])
+    apply(obj)
+    tree = bpy.data.materials["skin"].node_tree
+    (node,) = recolour.inserted(tree, recolour.INSTEAD)
+    assert node.outputs["Result"].is_linked or node.outputs[2].is_linked
+    apply(obj)
+    assert recolour.inserted(tree, recolour.INSTEAD) == [node]
+    switch("VISIBLE")
+    assert recolour.inserted(tree, recolour.INSTEAD) == []

@@ -7,7 +7,7 @@ file is saved, Apply makes it exact and lasting. Undo and redo bring settings an
 back together, so the same comparison finds what they left stale.
 """
 
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bpy.app.handlers import persistent
@@ -51,7 +51,7 @@ def show_changes() -> float | None:
     """Timer: show what has changed, roughly; the seconds until it must be called again."""
     if bpy.app.is_job_running("RENDER"):
         return BUSY_SECONDS
-    scene = bpy.context.scene
+    scene = _scene()
     for obj in _stale(scene):
         try:
             show(obj, scene)
@@ -70,9 +70,8 @@ def show(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
         If Apply would refuse.
     """
     group = settings_of(obj).group
-    shown = nodes.own_history(group)
-    alone = shown is not None and not Users().others(group, obj)
-    if not alone or not applied.is_only_schedule_changed(obj, scene):
+    shown = None if Users().others(group, obj) else nodes.own_history(group)
+    if shown is None or not applied.is_only_schedule_changed(obj, scene):
         apply_tan(obj, scene)
         return
     tannable(obj)
@@ -86,13 +85,17 @@ def make_exact() -> float | None:
     """Timer: apply what has changed; the seconds until it must be called again."""
     if bpy.app.is_job_running("RENDER"):
         return BUSY_SECONDS
-    scene = bpy.context.scene
+    scene = _scene()
     for obj in _stale(scene):
         try:
             apply_tan(obj, scene)
         except InputError:
             pass
     return None
+
+
+def _scene() -> bpy.types.Scene:
+    return cast(Any, bpy.context).scene
 
 
 def _stale(scene: bpy.types.Scene) -> list[bpy.types.Object]:

@@ -1,10 +1,14 @@
 """All classes of the add-on, and where Blender keeps their properties."""
 
+from pathlib import Path
 from typing import Any
 
 import bpy
 
 from . import live, ops, painting, props, ui
+
+FOLDER = str(Path(__file__).parent)
+"""With the presets that the add-on brings."""
 
 CLASSES = (*props.CLASSES, *ops.CLASSES, *ui.CLASSES)
 
@@ -16,6 +20,7 @@ def register():
     objects.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
     scenes: Any = bpy.types.Scene
     scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
+    bpy.utils.register_preset_path(FOLDER)
     live.register()
     painting.register()
 
@@ -23,6 +28,7 @@ def register():
 def unregister():
     painting.unregister()
     live.unregister()
+    bpy.utils.unregister_preset_path(FOLDER)
     objects: Any = bpy.types.Object
     del objects.skin_tan
     scenes: Any = bpy.types.Scene

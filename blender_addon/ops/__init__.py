@@ -8,6 +8,7 @@ from .exposures import (
     SKIN_TAN_OT_remove_exposure,
 )
 from .materials import SKIN_TAN_OT_list_materials
+from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_add
 from .schedule import SKIN_TAN_OT_export_schedule
 from .size import SKIN_TAN_OT_fit_size
 from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
@@ -25,5 +26,7 @@ CLASSES = (
     SKIN_TAN_OT_go_to_darkest_day,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_fit_size,
+    SKIN_TAN_OT_skin_preset_add,
+    SKIN_TAN_OT_schedule_preset_add,
     SKIN_TAN_OT_switch_view,
 )

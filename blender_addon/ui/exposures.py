@@ -1,5 +1,7 @@
 """The list of exposures, and the selected one."""
 
+from typing import Any
+
 import bpy
 
 from hylios.errors import InputError
@@ -46,9 +48,9 @@ def draw_exposures(
     buttons.operator("skin_tan.remove_exposure", text="", icon="REMOVE")
     buttons.operator("skin_tan.duplicate_exposure", text="", icon="DUPLICATE")
     if len(settings.exposures) > 1:
-        for direction in ("UP", "DOWN"):
-            move = buttons.operator("skin_tan.move_exposure", text="", icon=f"TRIA_{direction}")
-            move.direction = direction
+        up: Any = buttons.operator("skin_tan.move_exposure", text="", icon="TRIA_UP")
+        down: Any = buttons.operator("skin_tan.move_exposure", text="", icon="TRIA_DOWN")
+        up.direction, down.direction = "UP", "DOWN"
     if not settings.exposures:
         layout.label(text="Add a time in the sun with +", icon="INFO")
         return

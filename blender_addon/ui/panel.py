@@ -10,7 +10,7 @@ from ..applied import is_changed
 from ..model import summary
 from ..model.catalogue import FILE
 from ..model.timing import FRAMES, SPEED
-from ..ops.active import active_mesh
+from ..ops.active import active_mesh, current_scene
 from ..props import SkinTanSettings, settings_of
 from ..scene.timeline import shown_day
 from .exposures import draw_exposures
@@ -46,7 +46,7 @@ class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
         row.scale_y = 1.5
         row.operator("skin_tan.apply", icon="MATERIAL")
         layout.prop(settings, "live")
-        if is_changed(obj, context.scene) and not settings.live:
+        if is_changed(obj, current_scene(context)) and not settings.live:
             layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
         layout.operator("skin_tan.export_schedule", icon="EXPORT")
         day = shown_day(obj)

@@ -1,0 +1,19 @@
+import bpy
+
+settings = bpy.context.view_layer.objects.active.skin_tan
+
+settings.first_day = 0.0
+settings.last_day = 21.0
+settings.exposures.clear()
+item = settings.exposures.add()
+item.name = "Saturday"
+item.day = 0.0
+item.unit = "UV_INDEX"
+item.uv_index = 7.0
+item.duration = 2.0
+item = settings.exposures.add()
+item.name = "Sunday"
+item.day = 1.0
+item.unit = "UV_INDEX"
+item.uv_index = 7.0
+item.duration = 2.0

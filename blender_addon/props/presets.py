@@ -1,0 +1,36 @@
+"""Settings as the text of a preset, which sets them on the active object."""
+
+from collections.abc import Collection, Iterator
+
+import bpy
+
+HEADER = "import bpy\n\nsettings = bpy.context.view_layer.objects.active.skin_tan\n\n"
+
+SKIN = ("skin", "table_path", "own_minimal_doses", "mmd", "med")
+SCHEDULE = ("first_day", "last_day", "exposures")
+"""Names of what a preset of a skin and of a schedule holds."""
+
+OF_ONE_MESH = frozenset({"mask", "own_mask"})
+"""Properties of an exposure that mean nothing on another mesh."""
+
+
+def preset_text(settings: bpy.types.PropertyGroup, names: Collection[str]) -> str:
+    """Python that gives an object the values of some settings."""
+    lines = [line for name in names for line in _lines(settings, "settings", name)]
+    return HEADER + "".join(f"{line}\n" for line in lines)
+
+
+def _lines(group: bpy.types.PropertyGroup, path: str, name: str) -> Iterator[str]:
+    value, kind = getattr(group, name), group.bl_rna.properties[name].type
+    if kind == "COLLECTION":
+        yield f"{path}.{name}.clear()"
+        for item in value:
+            yield f"item = {path}.{name}.add()"
+            for inner in item.bl_rna.properties:
+                if item.is_property_set(inner.identifier) and inner.type != "POINTER":
+                    if inner.identifier not in OF_ONE_MESH:
+                        yield from _lines(item, "item", inner.identifier)
+    elif kind == "FLOAT" and hasattr(value, "__len__"):
+        yield f"{path}.{name} = {tuple(value)!r}"
+    else:
+        yield f"{path}.{name} = {value!r}"

@@ -1,10 +1,11 @@
 """How much of a Principled BSDF's base shows through its gloss in Cycles."""
 
 import functools
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 INDEX = 1.5526
 """Index of refraction of the skin's surface, for which `layer.csv` was measured."""
@@ -13,7 +14,7 @@ STRAIGHT = 20.0
 """Angle of view in degrees below which the factor does not change."""
 
 
-def let_through(roughness: float, angles: ArrayLike) -> NDArray[np.float64]:
+def let_through(roughness: float, angles: float | Sequence[float] | NDArray) -> NDArray[np.float64]:
     """The factor between base and light from below, at angles of view in degrees.
 
     Parameters

@@ -1,6 +1,7 @@
 """The one exception for input that cannot be used, and the checks that raise it."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -70,3 +71,9 @@ def _inside(name: str, value: float, low: float, high: float) -> bool:
         return bool(low <= value <= high)
     except (TypeError, ValueError) as error:
         raise InputError(f"{name} is {str(value)[:60]!r}; expected a number.") from error
+
+
+def first_where(bad: Any, *numbers: Any) -> list[float]:
+    """The first entry of each of some arrays, or numbers, where `bad` is true."""
+    bad, *spread = np.broadcast_arrays(bad, *numbers)
+    return [float(number.flat[bad.argmax()]) for number in spread]

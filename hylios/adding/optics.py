@@ -5,6 +5,7 @@ as long as adding the layers up, so they are kept: stacks that differ only in th
 them.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -19,6 +20,7 @@ from hylios.adding.scattering import (
     medium,
     melanosome_moments,
     rayleigh_moments,
+    stacked,
 )
 from hylios.adding.surface import FLAT, from_inside, from_outside
 from hylios.errors import InputError, require_range
@@ -106,47 +108,88 @@ class Optics:
     entering: np.ndarray
 
 
-def optical_constants(stack: Stack, films: tuple[float | None, ...] = (None,)) -> OpticalConstants:
-    """The optical constants of a stack, with films of these refractive indices on it in turn.
+def groups(
+    stacks: Stack, nodes: int, films: tuple[float | None, ...] = (None,)
+) -> dict[Pattern, tuple[np.ndarray, list[OpticalConstants], np.ndarray]]:
+    """Which stacks, of one whose numbers are arrays, can be solved together.
+
+    Returns
+    -------
+    dict
+        For each pattern, numbers of the stacks (M,), the optical constants that occur among them,
+        with films of these refractive indices in turn, and which of these each stack has (M,).
 
     Raises
     ------
     InputError
-        If a film's lies outside that above the stack to 2.
+        If a film's refractive index lies outside that above the stack to 2, a layer's thickness is
+        not finite, or fibres that scatter once per traversal share a layer with other scatterers.
     """
-    inner = tuple(layer.refractive_index for layer in stack.layers)
-    if stack.readings["inner_fresnel"] == "off":
+    for layer in stacks.layers:
+        require_range("least thickness of a layer", float(np.min(layer.thickness)), 0.0, 1e9, "cm")
+        require_range("thickness of a layer", float(np.max(layer.thickness)), 0.0, 1e9, "cm")
+    scatter = [_scatterers(layer, stacks) for layer in stacks.layers]
+    rows = np.stack(
+        [
+            stacks.index_above,
+            *(layer.refractive_index for layer in stacks.layers),
+            stacks.index_below,
+            stacks.roughness,
+            stacks.scattering_angle,
+            *(layer.anisotropy for layer in stacks.layers),
+            *(own for kinds in scatter for own in kinds.values()),
+        ],
+        axis=1,
+    )
+    _, some, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    which = which.reshape(-1)
+    constants = [_constants(stacks, int(one), films) for one in some]
+    patterns = [
+        _pattern(stacks, [_kinds(kinds, int(one), stacks) for kinds in scatter], own, nodes)
+        for one, own in zip(some, constants, strict=True)
+    ]
+    result = {}
+    for shared in dict.fromkeys(patterns):
+        numbers = np.array([number for number, own in enumerate(patterns) if own == shared])
+        members = np.flatnonzero(np.isin(which, numbers))
+        place = np.searchsorted(numbers, which[members])
+        result[shared] = members, [constants[number] for number in numbers], place
+    return result
+
+
+def _constants(stacks: Stack, one: int, films: tuple[float | None, ...]) -> OpticalConstants:
+    """The optical constants of one of the stacks."""
+    inner = tuple(float(layer.refractive_index[one]) for layer in stacks.layers)  # type: ignore
+    if stacks.readings["inner_fresnel"] == "off":
         inner = inner[:1] * len(inner)
+    above, below, roughness, angle = (
+        float(getattr(stacks, name)[one])
+        for name in ("index_above", "index_below", "roughness", "scattering_angle")
+    )
     for film in films:
         if film is not None:
-            require_range("refractive index of the film", film, stack.index_above, 2.0)
-    below = inner[-1] if stack.lambertian_floor else stack.index_below
+            require_range("refractive index of the film", film, above, 2.0)
     return OpticalConstants(
-        roughness=stack.roughness,
-        scattering_angle=stack.scattering_angle,
-        exponential=stack.readings["melanosome_scattering"] == "exponential",
-        indices=(stack.index_above, *inner, below),
-        anisotropies=tuple(layer.anisotropy for layer in stack.layers),
-        films=tuple(None if film == stack.index_above else film for film in films),
+        roughness=roughness,
+        scattering_angle=angle,
+        exponential=stacks.readings["melanosome_scattering"] == "exponential",
+        indices=(above, *inner, inner[-1] if stacks.lambertian_floor else below),
+        anisotropies=tuple(float(layer.anisotropy[one]) for layer in stacks.layers),  # type: ignore
+        films=tuple(None if film == above else film for film in films),
     )
 
 
-def pattern(stack: Stack, constants: OpticalConstants, nodes: int) -> Pattern:
-    """The pattern of a stack with the given optical constants.
-
-    Raises
-    ------
-    InputError
-        If a layer's thickness is not finite, or fibres that scatter once per traversal share a
-        layer with other scatterers.
-    """
+def _pattern(
+    stacks: Stack, kinds: list[tuple[str, ...]], constants: OpticalConstants, nodes: int
+) -> Pattern:
+    """The pattern of stacks with the given optical constants."""
     cuts, filmed = constants.cuts, any(constants.films)
     ranks, counts = _ranks_and_counts(constants.indices, cuts, filmed, nodes)
     return Pattern(
         ranks=ranks,
         counts=counts,
-        kinds=tuple(_kinds(layer, stack) for layer in stack.layers),
-        floor=stack.readings["floor"] if stack.lambertian_floor else "open",
+        kinds=tuple(kinds),
+        floor=stacks.readings["floor"] if stacks.lambertian_floor else "open",
     )
 
 
@@ -162,21 +205,25 @@ def _ranks_and_counts(
     return ranks, tuple(counts)
 
 
-def _kinds(layer: Layer, stack: Stack) -> tuple[str, ...]:
-    """What scatters in a layer; melanosomes that turn no light only absorb."""
-    require_range("thickness of a layer", layer.thickness, 0.0, 1e9, "cm")
-    every = stack.readings["rayleigh"] == "every_collision"
-    present = {
-        "melanosomes": layer.encounter > 0.0 and stack.scattering_angle > 0.0,
-        "scatterers": layer.scattering > 0.0,
-        "fibres": layer.rayleigh > 0.0 and every,
-        "fibres once": layer.rayleigh > 0.0 and not every,
+def _scatterers(layer: Layer, stacks: Stack) -> dict[str, np.ndarray]:
+    """Whether each kind of scatterer is in a layer; melanosomes that turn no light only absorb."""
+    every = stacks.readings["rayleigh"] == "every_collision"
+    fibres = np.asarray(layer.rayleigh) > 0.0
+    return {
+        "melanosomes": (np.asarray(layer.encounter) > 0.0) & (stacks.scattering_angle > 0.0),
+        "scatterers": np.asarray(layer.scattering) > 0.0,
+        "fibres": fibres & every,
+        "fibres once": fibres & (not every),
     }
-    kinds = tuple(name for name in present if present[name])
+
+
+def _kinds(present: dict[str, np.ndarray], one: int, stacks: Stack) -> tuple[str, ...]:
+    """What scatters in a layer of one of the stacks."""
+    kinds = tuple(name for name in present if present[name][one])
     if "fibres once" in kinds and len(kinds) > 1:
         raise InputError(
-            f"reading rayleigh is {stack.readings['rayleigh']!r} for a layer with other scatterers "
-            "too; allowed there is 'every_collision'."
+            f"reading rayleigh is {stacks.readings['rayleigh']!r} for a layer with other "
+            "scatterers too; allowed there is 'every_collision'."
         )
     return kinds
 
@@ -201,6 +248,31 @@ def optics(constants: OpticalConstants, shared: Pattern, angles: tuple[float, ..
         let_out=let_out,
         surface=surface,
         entering=entering,
+    )
+
+
+def joined_optics(parts: Sequence[Optics], which: np.ndarray) -> Optics:
+    """Optics of S stacks as one, with a leading dimension; `which` (S,) of the parts each has."""
+
+    def gathered(arrays: Sequence[np.ndarray]) -> np.ndarray:
+        return np.stack(arrays)[which]
+
+    first = parts[0]
+    return Optics(
+        cosines={
+            rank: (
+                gathered([part.cosines[rank][0] for part in parts]),
+                gathered([part.cosines[rank][1] for part in parts]),
+            )
+            for rank in first.cosines
+        },
+        media={
+            number: stacked([part.media[number] for part in parts], which) for number in first.media
+        },
+        **{
+            name: gathered([getattr(part, name) for part in parts])
+            for name in ("mirrored", "let_out", "surface", "entering")
+        },
     )
 
 

@@ -111,15 +111,19 @@ def _kernels(integrals: Integrals, moments: np.ndarray) -> tuple[np.ndarray, np.
     return even + np.diag(integrals.legendre[0] - even.sum(axis=1)), odd
 
 
-def stacked(media: Sequence[Medium]) -> Medium:
-    """Several stacks' media as one."""
+def stacked(media: Sequence[Medium], which: np.ndarray) -> Medium:
+    """Media of S stacks as one; `which` (S,) of the media each has."""
     kinds = range(len(media[0].even))
+
+    def gathered(arrays: list[np.ndarray]) -> np.ndarray:
+        return np.stack(arrays)[which]
+
     return Medium(
-        basis=np.stack([one.basis for one in media]),
-        inverse=np.stack([one.inverse for one in media]),
-        mass=np.stack([one.mass for one in media]),
-        even=tuple(np.stack([one.even[kind] for one in media]) for kind in kinds),
-        odd=tuple(np.stack([one.odd[kind] for one in media]) for kind in kinds),
+        basis=gathered([one.basis for one in media]),
+        inverse=gathered([one.inverse for one in media]),
+        mass=gathered([one.mass for one in media]),
+        even=tuple(gathered([one.even[kind] for one in media]) for kind in kinds),
+        odd=tuple(gathered([one.odd[kind] for one in media]) for kind in kinds),
     )
 
 

@@ -6,25 +6,20 @@ of it through, and reflects some of what comes back.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hylios.adding.optics import (
-    Optics,
-    Pattern,
-    is_medium,
-    optical_constants,
-    optics,
-    pattern,
-)
-from hylios.adding.scattering import once_per_traversal, response, stacked
+from hylios.adding.meetings import met_in_layer
+from hylios.adding.optics import Optics, Pattern, groups, is_medium, joined_optics, optics
+from hylios.adding.scattering import once_per_traversal, response
 from hylios.adding.surface import LEAK, fresnel
 from hylios.errors import InputError, require_range, require_whole
+from hylios.skin.specimen import Specimen, require_specimen
 from hylios.threads import one_thread
-from hylios.tissue import Layer, Stack
-from hylios.tissue.melanosome_encounters import encounters, left_out
-from hylios.tissue.melanosome_survival import survival_in_melanosome
+from hylios.tissue import Model, Stack
+from hylios.tissue.stacks import joined, some_of, stacks_of
 
 NODES = 22
 """Directions by default: within 2.5e-4 of what many more give, 1e-4 rms."""
@@ -114,31 +109,82 @@ def solve(
         per traversal share a layer with other scatterers, or the survival in melanosomes is not
         given and cannot be looked up.
     """
-    nodes = require_whole("number of nodes", nodes, 6, 200)
-    angles = np.atleast_1d(np.asarray(angle, dtype=float))
-    if angles.ndim != 1 or not angles.size:
-        raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
-    for degrees in angles:
-        require_range("angle of incidence", float(degrees), 0.0, 89.99, "degrees")
-    films = _films(film)
-    radians = tuple(np.radians(angles).tolist())
-    constants = [optical_constants(stack, films) for stack in stacks]
-    groups: dict[Pattern, list[int]] = {}
-    for number, (stack, own) in enumerate(zip(stacks, constants, strict=True)):
-        groups.setdefault(pattern(stack, own, nodes), []).append(number)
-    shares = np.empty((3, len(films), angles.size, len(stacks)))
+    shares = np.empty((3, *_require(angle, nodes, film), len(stacks)))
     with one_thread():
-        for shared, members in groups.items():
-            for first in range(0, len(members), TOGETHER):
-                some = members[first : first + TOGETHER]
-                shares[..., some] = _added_up(
-                    [stacks[number] for number in some],
-                    np.array([constants[number].indices for number in some]),
-                    shared,
-                    [optics(constants[number], shared, radians) for number in some],
-                )
+        for alike in _alike(stacks):
+            together = joined([stacks[number] for number in alike])
+            shares[..., alike] = _shares(together, angle, nodes, film)
+    return _reflectance(shares, angle, film)
+
+
+def solve_specimens(
+    specimens: Sequence[Specimen],
+    wavelengths: np.ndarray,
+    angle: float | Sequence[float] = 8.0,
+    nodes: int = NODES,
+    *,
+    film: Film = None,
+    model: Model | None = None,
+) -> Reflectance:
+    """As `solve`, of the stacks of N specimens at W wavelengths in nm; shares are (..., N, W).
+
+    Faster than with stacks made one by one.
+    """
+    shares = np.empty((3, *_require(angle, nodes, film), len(specimens), len(wavelengths)))
+    arranged: dict[str, list[int]] = {}
+    for number, specimen in enumerate(specimens):
+        arrangement = require_specimen(specimen).melanosome_arrangement
+        arranged.setdefault(arrangement, []).append(number)
+    with one_thread():
+        for alike in arranged.values():
+            together = stacks_of([specimens[number] for number in alike], wavelengths, model)
+            some = _shares(together, angle, nodes, film)
+            shares[..., alike, :] = some.reshape(*some.shape[:-1], len(alike), -1)
+    return _reflectance(shares, angle, film)
+
+
+def _require(angle: float | Sequence[float], nodes: int, film: Film) -> tuple[int, int]:
+    """Numbers of films and angles, if these and the nodes can be used."""
+    require_whole("number of nodes", nodes, 6, 200)
+    angles = np.asarray(angle, dtype=float)
+    if angles.ndim > 1 or not angles.size:
+        raise InputError(f"angles have shape {angles.shape}; expected one row, not empty.")
+    for degrees in np.atleast_1d(angles):
+        require_range("angle of incidence", float(degrees), 0.0, 89.99, "degrees")
+    return len(_films(film)), angles.size
+
+
+def _reflectance(shares: np.ndarray, angle: float | Sequence[float], film: Film) -> Reflectance:
+    """From shares (3, F, A, ...), without the axes of what there is only one of."""
     shares = shares if np.ndim(angle) else shares[:, :, 0]
     return Reflectance(*(shares if isinstance(film, Sequence) else shares[:, 0]))
+
+
+def _alike(stacks: Sequence[Stack]) -> list[list[int]]:
+    """Numbers of the stacks that are alike in all that is no number."""
+    alike: dict[tuple, list[int]] = {}
+    for number, stack in enumerate(stacks):
+        kind = len(stack.layers), stack.lambertian_floor, *stack.readings.values()
+        alike.setdefault(kind, []).append(number)
+    return list(alike.values())
+
+
+def _shares(stacks: Stack, angle: float | Sequence[float], nodes: int, film: Film) -> np.ndarray:
+    """Surface, subsurface and transmitted shares (3, F, A, S) of stacks whose numbers are (S,)."""
+    films, angles = _films(film), tuple(np.radians(np.atleast_1d(angle)).tolist())
+    shares = np.empty((3, len(films), len(angles), np.size(stacks.roughness)))
+    for shared, (members, constants, which) in groups(stacks, nodes, films).items():
+        parts = [optics(own, shared, angles) for own in constants]
+        for first in range(0, len(members), TOGETHER):
+            some = slice(first, first + TOGETHER)
+            kept, place = np.unique(which[some], return_inverse=True)
+            shares[..., members[some]] = _added_up(
+                some_of(stacks, members[some]),
+                shared,
+                joined_optics([parts[number] for number in kept], place.reshape(-1)),
+                np.array([constants[number].indices for number in kept])[place.reshape(-1)],
+            )
+    return shares
 
 
 def _films(film: Film) -> tuple[float | None, ...]:
@@ -149,23 +195,14 @@ def _films(film: Film) -> tuple[float | None, ...]:
     return tuple(films)
 
 
-def _added_up(
-    stacks: list[Stack], indices: np.ndarray, shared: Pattern, parts: list[Optics]
-) -> np.ndarray:
+def _added_up(stacks: Stack, shared: Pattern, parts: Optics, indices: np.ndarray) -> np.ndarray:
     """Surface, subsurface and transmitted shares, (3, F, A, S), of stacks of one pattern.
 
     `indices` (S, L + 2) are those of `OpticalConstants`.
     """
-    cosines = {
-        rank: (
-            np.stack([part.cosines[rank][0] for part in parts]),
-            np.stack([part.cosines[rank][1] for part in parts]),
-        )
-        for rank in set(shared.ranks[1:-1])
-    }
-    deepest = len(shared.kinds) - 1
-    share = np.array([stack.floor_reflectance for stack in stacks])
-    below = _floor(shared.floor, *cosines[shared.ranks[deepest + 1]], indices[:, -2:], share)
+    cosines, deepest = parts.cosines, len(shared.kinds) - 1
+    floor_cosines = cosines[shared.ranks[deepest + 1]]
+    below = _floor(shared.floor, *floor_cosines, indices[:, -2:], _row(stacks.floor_reflectance))
     for number in range(deepest, -1, -1):
         rank, rank_above = shared.ranks[number + 1], shared.ranks[number]
         below = _through_layer(number, stacks, shared.kinds[number], parts, *cosines[rank], below)
@@ -202,19 +239,17 @@ def _floor(
 
 def _through_layer(
     number: int,
-    stacks: list[Stack],
+    stacks: Stack,
     kinds: tuple[str, ...],
-    parts: list[Optics],
+    parts: Optics,
     cosine: np.ndarray,
     weight: np.ndarray,
     below: Below,
 ) -> Below:
     """`Below` the upper face of the layer with that number, from that at its lower face."""
-    layers = [stack.layers[number] for stack in stacks]
-    thickness, absorption = _values(layers, "thickness"), _values(layers, "absorption")
-    rayleigh = _values(layers, "rayleigh")
-    met = np.array([_met(layer, stack) for layer, stack in zip(layers, stacks, strict=True)])
-    rate, once, twice = met[:, 0], met[:, 1], met[:, 2]
+    layer = stacks.layers[number]
+    thickness, absorption = _row(layer.thickness), _row(layer.absorption)
+    rate, once, twice, factor = met_in_layer(layer, stacks)
     if "melanosomes" not in kinds:
         absorption = absorption + rate - rate * (once + twice)
     if not kinds:
@@ -223,19 +258,18 @@ def _through_layer(
         returned = passed[:, :, None] * below.returned * passed[:, None, :]
         return Below(returned, passed * below.lost)
     if is_medium(kinds):
-        scattering = _values(layers, "scattering")
-        rate = rate * np.array([left_out(layer) for layer in layers])
+        scattering, fibres, rate = _row(layer.scattering), _row(layer.rayleigh), rate * factor
         events = {
             "melanosomes": (rate, [rate * once, rate * twice]),
             "scatterers": (scattering, [scattering]),
-            "fibres": (rayleigh, [rayleigh]),
+            "fibres": (fibres, [fibres]),
         }
         extinction = absorption + sum(events[kind][0] for kind in kinds)
         kept = [share for kind in kinds for share in events[kind][1]]
-        media = stacked([part.media[number] for part in parts])
-        reflected, passed = response(media, thickness, extinction, kept)
+        reflected, passed = response(parts.media[number], thickness, extinction, kept)
     else:
-        reflected, passed = once_per_traversal(cosine, weight, thickness, absorption, rayleigh)
+        fibres = _row(layer.rayleigh)
+        reflected, passed = once_per_traversal(cosine, weight, thickness, absorption, fibres)
     upwards = _solved(
         reflected @ below.returned, passed, (reflected @ below.lost[:, :, None])[:, :, 0]
     )
@@ -246,24 +280,9 @@ def _through_layer(
     )
 
 
-def _values(layers: list[Layer], name: str) -> np.ndarray:
-    return np.array([getattr(layer, name) for layer in layers], dtype=float)
-
-
-def _met(layer: Layer, stack: Stack) -> tuple[float, float, float]:
-    """How light meets melanosomes (`encounters`)."""
-    if layer.encounter <= 0.0:
-        return 0.0, 1.0, 0.0
-    one = layer.survival
-    if one < 0.0:
-        entry = stack.readings["melanosome_entry"]
-        if entry != "straight":
-            raise InputError(
-                f"reading melanosome_entry is {entry!r}; allowed for layers without their survival "
-                "in a melanosome is 'straight'."
-            )
-        one = survival_in_melanosome(layer, stack.melanin_index)
-    return encounters(layer, one, stack.readings["complex_melanosomes"] == "diameter")
+def _row(number: Any) -> np.ndarray:
+    """A number of a stack or layer, which is an array."""
+    return number
 
 
 def _through_face(reflectance: np.ndarray, count: int, below: Below) -> Below:
@@ -288,13 +307,12 @@ def _through_face(reflectance: np.ndarray, count: int, below: Below) -> Below:
     return Below(returned, lost)
 
 
-def _through_surface(parts: list[Optics], below: Below) -> np.ndarray:
+def _through_surface(parts: Optics, below: Below) -> np.ndarray:
     """Surface, subsurface and transmitted shares, (3, F, A, S)."""
     shares = []
-    for film in range(len(parts[0].surface)):
+    for film in range(parts.surface.shape[1]):
         mirrored, let_out, surface, entering = (
-            np.stack([getattr(part, name)[film] for part in parts])
-            for name in ("mirrored", "let_out", "surface", "entering")
+            getattr(parts, name)[:, film] for name in ("mirrored", "let_out", "surface", "entering")
         )
         ends = _solved(below.returned @ mirrored, below.returned @ let_out[:, :, None], below.lost)
         leaving, lost = entering @ ends.returned, entering @ ends.lost[:, :, None]

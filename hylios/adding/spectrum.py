@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hylios.adding.solver import NODES, Film, Reflectance, solve
+from hylios.adding.solver import NODES, Film, Reflectance, solve_specimens
 from hylios.skin.specimen import Specimen
 from hylios.spectra import require_wavelengths
-from hylios.tissue import Model, Stack
+from hylios.tissue import Model
 
 
 @dataclass(frozen=True)
@@ -44,12 +44,8 @@ def spectra(
     Its arrays are (S, W), (A, S, W) for several angles, (F, ..., S, W) for several films.
     Parameters and errors as in `spectrum`.
     """
-    row = [float(wavelength) for wavelength in wavelengths]
-    stacks = [Stack.of(specimen, nm, model) for specimen in specimens for nm in row]
-    solved = solve(stacks, angle, nodes, film=film)
-    shares = solved.surface, solved.subsurface, solved.transmittance
-    shape = *solved.surface.shape[:-1], len(specimens), len(row)
-    return Reflectance(*(share.reshape(shape) for share in shares))
+    row = np.array([float(wavelength) for wavelength in wavelengths])
+    return solve_specimens(specimens, row, angle, nodes, film=film, model=model)
 
 
 def spectrum(
@@ -87,5 +83,7 @@ def spectrum(
     """
     model = model or Model()
     row = require_wavelengths(wavelengths, model.spectra)
-    solved = solve([Stack.of(specimen, nm, model) for nm in row], angle, nodes, film=film)
-    return Spectrum(solved.surface, solved.subsurface, solved.transmittance, row)
+    solved = solve_specimens([specimen], row, angle, nodes, film=film, model=model)
+    shares = (solved.surface, solved.subsurface, solved.transmittance)
+    surface, subsurface, transmittance = (share[..., 0, :] for share in shares)
+    return Spectrum(surface, subsurface, transmittance, row)

@@ -182,7 +182,7 @@ def _epidermal_absorbers(
     colloidal = 0.01 * getattr(specimen, f"{part}_colloidal_melanin")
     if model.readings["colloidal_melanin"] == "solid":
         held = specimen.eumelanin_concentration + specimen.pheomelanin_concentration
-        colloidal *= SOLID_MELANIN / held if held > 0 else 0.0
+        colloidal *= np.where(held > 0.0, SOLID_MELANIN / np.maximum(held, 1e-300), 0.0)
     content = specimen.epidermis_beta_carotene
     return {
         "dna": model.spectra["dna"].at(wavelength) * specimen.skin_dna,

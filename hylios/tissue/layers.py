@@ -6,10 +6,11 @@ other pile of plane layers. Lengths in cm, coefficients in 1/cm.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from hylios.errors import require_range
+from hylios.errors import first_where, require_range
 from hylios.skin.specimen import EPIDERMIS, Specimen, require_specimen
 from hylios.tissue.absorbers import PARTS, absorbers
 from hylios.tissue.melanosomes import melanosomes, scattering_angle
@@ -109,10 +110,13 @@ class Stack:
             too thin for the melanosomes in it, or so thick, full and clear that a ray would hardly
             ever end.
         """
-        model = model or Model()
-        require_specimen(specimen)
-        absorption = {
-            part: float(sum(coefficients.values()))
+        return cls.of_alike(require_specimen(specimen), wavelength, model or Model())
+
+    @classmethod
+    def of_alike(cls, specimen: Specimen, wavelength: float, model: Model) -> "Stack":
+        """As `of`; the specimen's numbers and the wavelength may be arrays that broadcast."""
+        absorption: dict[str, Any] = {
+            part: sum(coefficients.values())
             for part, coefficients in absorbers(specimen, wavelength, model).items()
         }
         return cls(
@@ -129,17 +133,20 @@ class Stack:
 
 
 def _layer(
-    specimen: Specimen, part: str, wavelength: float, model: Model, absorption: float
+    specimen: Specimen, part: str, wavelength: float, model: Model, absorption: Any
 ) -> Layer:
-    scatterers = {}
+    scatterers: dict[str, Any] = {}
     if part in EPIDERMIS:
         scatterers = vars(melanosomes(specimen, part, wavelength, model, absorption))
     elif part == "papillary":
         denominator = model.readings["rayleigh_denominator"]
         scatterers = {"rayleigh": rayleigh_coefficient(wavelength, denominator)}
-    index = refractive_index(specimen, part, wavelength, model)
+    index: Any = refractive_index(specimen, part, wavelength, model)
     inside = scatterers.get("melanin_absorption", 0.0)
-    if not (absorption <= MOST_ABSORPTION >= inside and INDICES[0] <= index <= INDICES[1]):
+    fits = (absorption <= MOST_ABSORPTION) & (inside <= MOST_ABSORPTION)
+    fits = fits & (index >= INDICES[0]) & (index <= INDICES[1])
+    if not np.all(fits):
+        absorption, inside, index = first_where(~fits, absorption, inside, index)
         require_range(f"absorption coefficient of {part}", absorption, 0.0, MOST_ABSORPTION, "1/cm")
         require_range("absorption coefficient of melanin", inside, 0.0, MOST_ABSORPTION, "1/cm")
         require_range(f"refractive index of {part}", index, *INDICES)
@@ -161,7 +168,7 @@ def refractive_index(specimen: Specimen, part: str, wavelength: float, model: Mo
     water = 0.01 * getattr(specimen, f"{tissue}_water")
     index = model.spectra["water_refractive_index"]
     change = index.at(wavelength) - index.at(REFERENCE_NM)
-    return float(getattr(specimen, f"{tissue}_refractive_index") + water * change)
+    return getattr(specimen, f"{tissue}_refractive_index") + water * change
 
 
 def rayleigh_coefficient(wavelength: float, denominator: str = "printed") -> float:
@@ -172,4 +179,4 @@ def rayleigh_coefficient(wavelength: float, denominator: str = "printed") -> flo
     fibre_volume = 4.0 / 3.0 * np.pi * FIBRE_RADIUS**3
     length = wavelength * 1e-7
     strength = 128.0 * np.pi**5 * FIBRE_RADIUS**6 * FIBRE_VOLUME / (3.0 * length**4)
-    return float(strength / fibre_volume * contrast)
+    return strength / fibre_volume * contrast

@@ -28,6 +28,7 @@ for complexes and for single melanosomes, where they turn light.
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -51,8 +52,10 @@ STEPS = 64
 """Distances tried for each."""
 
 
-def encounters(layer: Layer, survival: float, by_diameter: bool) -> tuple[float, float, float]:
+def encounters(layer: Layer, survival: Any, by_diameter: bool) -> tuple[Any, Any, Any]:
     """How light meets melanosomes or complexes.
+
+    The layer's numbers may be arrays, but for the melanosomes' size.
 
     Parameters
     ----------
@@ -78,11 +81,11 @@ def encounters(layer: Layer, survival: float, by_diameter: bool) -> tuple[float,
     across = pair.offset * USUAL_COSINE
     through = np.exp(-layer.encounter * layer.thickness / USUAL_COSINE)
     closed = size * ((pair.extent - across) + (pair.extent + across) * through) / layer.thickness
-    delay = met * max(0.0, pair.dead - met * pair.variance)
+    delay = met * np.maximum(0.0, pair.dead - met * pair.variance)
     # h (1 + x) / (1 + h x) by its value and slope at h = survival, g_0 = 1
     going_on = survival * (1.0 + delay) / (1.0 + survival * delay)
     twice = -going_on * survival * delay / (1.0 + survival * delay)
-    return layer.encounter * max(0.0, 1.0 - closed), going_on - twice, twice
+    return layer.encounter * np.maximum(0.0, 1.0 - closed), going_on - twice, twice
 
 
 def left_out(layer: Layer) -> float:
@@ -90,8 +93,7 @@ def left_out(layer: Layer) -> float:
     return LEFT_OUT["complexes" if layer.complex_radius > 0.0 else "single"]
 
 
-@lru_cache(maxsize=4096)
-def _survival_of_complex(survival: float, held: float, by_diameter: bool) -> float:
+def _survival_of_complex(survival: Any, held: float, by_diameter: bool) -> Any:
     """Probability of leaving unabsorbed a sphere whose diameter is that many minor axes.
 
     A ray meets as many melanosomes as its chord holds. Evenly spread over the sphere's
@@ -101,7 +103,7 @@ def _survival_of_complex(survival: float, held: float, by_diameter: bool) -> flo
         return survival ** int(held)
     count = np.arange(int(held) + 1)
     chance = np.minimum((count + 1) / held, 1.0) ** 2 - (count / held) ** 2
-    return float(chance @ survival**count)
+    return np.power.outer(survival, count) @ chance
 
 
 @dataclass(frozen=True)

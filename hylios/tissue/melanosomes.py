@@ -1,10 +1,11 @@
 """The melanosomes of a layer of the epidermis: size, number, absorption (section 4.2.1)."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from hylios.errors import InputError
+from hylios.errors import InputError, first_where
 from hylios.skin.specimen import MELANOSOME_SCALE, Specimen
 from hylios.tissue.absorbers import melanin_coefficient
 from hylios.tissue.model import Model
@@ -44,7 +45,7 @@ class Melanosomes:
 
 
 def melanosomes(
-    specimen: Specimen, part: str, wavelength: float, model: Model, absorption: float
+    specimen: Specimen, part: str, wavelength: float, model: Model, absorption: Any
 ) -> Melanosomes:
     """The melanosomes of a layer, single or in complexes.
 
@@ -68,19 +69,24 @@ def melanosomes(
     semi_major = 0.5 * scale * specimen.melanosome_major_axis
     radius = COMPLEX_RADIUS[specimen.melanosome_arrangement] * semi_major
     content = 0.01 * getattr(specimen, f"{part}_melanosomes")
-    if radius > 0.0 and model.readings["complex_content"] == "packed":
+    in_complexes = COMPLEX_RADIUS[specimen.melanosome_arrangement] > 0.0
+    if in_complexes and model.readings["complex_content"] == "packed":
         filled = (radius / semi_minor) * semi_minor**2 * semi_major / radius**3
-        content = min(content / filled, 1.0)
+        content = np.minimum(content / filled, 1.0)
     thickness = getattr(specimen, f"{part}_thickness")
-    thinnest = 2.0 * (radius or semi_minor)
-    if content > 0.0 and thickness < thinnest:
+    thinnest = 2.0 * (radius if in_complexes else semi_minor)
+    crowded = (content > 0.0) & (thickness < thinnest)
+    if np.any(crowded):
+        thickness, thinnest = first_where(crowded, thickness, thinnest)
         raise InputError(
             f"{part}_thickness is {thickness:g} cm; allowed with melanosomes in that layer is the "
             f"size of one, {thinnest:g} cm, or more."
         )
-    encounter = encounter_coefficient(content, semi_minor, semi_major, radius)
-    inside = float(melanin_coefficient(specimen, wavelength, model))
-    _require_end(part, thickness, encounter, absorption + min(encounter, content * inside))
+    encounter = encounter_coefficient(
+        content, semi_minor, semi_major, radius if in_complexes else 0.0
+    )
+    inside: Any = melanin_coefficient(specimen, wavelength, model)
+    _require_end(part, thickness, encounter, absorption + np.minimum(encounter, content * inside))
     return Melanosomes(encounter, semi_minor, semi_major, radius, inside)
 
 
@@ -91,19 +97,21 @@ def encounter_coefficient(
 
     With a radius above 0, in cm, that of complexes.
     """
-    if complex_radius > 0.0:
+    if np.any(complex_radius > 0.0):
         surface_to_volume = 3.0 / complex_radius
     else:
         eccentricity = np.sqrt(1.0 - (semi_minor / semi_major) ** 2)
-        arc = np.arcsin(eccentricity) / eccentricity if eccentricity > 0.0 else 1.0
+        arc: Any = np.where(
+            eccentricity > 0.0, np.arcsin(eccentricity) / np.maximum(eccentricity, 1e-300), 1.0
+        )
         surface_to_volume = 1.5 / semi_minor * (semi_minor / semi_major + arc)
-    return float(surface_to_volume * volume_fraction / 4.0)
+    return surface_to_volume * volume_fraction / 4.0
 
 
 def scattering_angle(wavelength: float) -> float:
     """Parameter theta_0 of algorithm 1 in radians: 5 degrees, falling to 0 from 780 to 1300 nm."""
     fade = np.clip((1300.0 - wavelength) / (1300.0 - 780.0), 0.0, 1.0)
-    return float(np.radians(SCALE_ANGLE) * fade)
+    return np.radians(SCALE_ANGLE) * fade
 
 
 def _require_end(part: str, thickness: float, encounter: float, lost: float) -> None:
@@ -112,8 +120,10 @@ def _require_end(part: str, thickness: float, encounter: float, lost: float) -> 
     A diffuse ray's mean path in a clear slab over a white floor is 4 n^2, here 8, times the
     slab's thickness, however much it scatters; absorption, about `lost` per cm, shortens it.
     """
-    met = encounter * (1.0 / lost if lost * 8.0 * thickness > 1.0 else 8.0 * thickness)
-    if met > MOST_MELANOSOMES_MET:
+    met = encounter / np.maximum(lost, 1.0 / (8.0 * thickness))
+    endless = met > MOST_MELANOSOMES_MET
+    if np.any(endless):
+        thickness, met = first_where(endless, thickness, met)
         raise InputError(
             f"{part}_thickness is {thickness:g} cm, where a ray would meet about {met:.1g} "
             f"melanosomes before it ends; allowed is up to {MOST_MELANOSOMES_MET:g}."

@@ -21,6 +21,7 @@ from .scene import (
     mask_values,
     masks,
     nodes,
+    recolour,
     size,
     slots,
     timeline,
@@ -166,11 +167,8 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
             f"The Principled BSDF was removed from {skin.group.name!r}: subsurface scattering is "
             "left to the shader in its place."
         )
-    if settings_of(obj).film != "NONE" and not film.is_shown(skin.group):
-        remarks.append(
-            f"The film does not show: the Principled BSDF in {skin.group.name!r} was removed or "
-            "has a coat of its own."
-        )
+    if settings_of(obj).film != "NONE":
+        remarks += _on_film(obj, skin)
     if timeline.is_driven(obj):
         remarks.append("A driver governs the day of the tan, so its keys have no effect.")
     several = len(set(settings_of(obj).masks()))
@@ -182,6 +180,20 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks
+
+
+def _on_film(obj: bpy.types.Object, skin: skins.Skin) -> list[str]:
+    """Why an object's film does not show, or not everywhere."""
+    shown = dict.fromkeys(slot.material for slot in obj.material_slots if slot.material)
+    recoloured = [material for material in shown if recolour.is_in(material)]
+    if recoloured:
+        return [f"No film shows on {names(recoloured)}: a recoloured material keeps its own gloss."]
+    if not film.is_shown(skin.group):
+        return [
+            f"The film does not show: the Principled BSDF in {skin.group.name!r} was removed or "
+            "has a coat of its own."
+        ]
+    return []
 
 
 def _on_size(obj: bpy.types.Object, scene: bpy.types.Scene) -> list[str]:

@@ -1,5 +1,7 @@
 """A film on the skin, rendered, and what it leaves alone."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
@@ -15,6 +17,8 @@ from blender_addon.scene.film import ROLES
 from blender_addon.scene.plan import INDEX
 from hylios.errors import InputError
 from hylios.tissue.liquids import LIQUIDS
+
+LAYOUT_1 = Path(__file__).parents[1] / "data" / "layout_1.blend"
 
 
 @pytest.fixture
@@ -171,3 +175,24 @@ def test_a_copy_made_for_one_of_two_objects_is_covered(body):
     assert tan_group(other) != tan_group(body)
     assert group_node(other).inputs["Film"].default_value == 1.0
     assert not film_nodes(body)
+
+
+def test_a_recoloured_material_shows_no_film_and_apply_says_so(body):
+    material = bpy.data.materials.new("Painted")
+    if material.node_tree is None:
+        material.use_nodes = True  # Blender 4.5
+    body.data.materials.append(material)
+    body.skin_tan.film = "OIL"
+    assert "No film shows on 'Painted'" in apply_tan(body, bpy.context.scene)
+
+
+def test_a_file_of_the_plan_before_shows_a_film_where_no_coat_is_in_its_way(tmp_path):
+    """On Body an artist has given the skin a coat."""
+    bpy.ops.wm.open_mainfile(filepath=str(LAYOUT_1))
+    twin, body = bpy.data.objects["Twin"], bpy.data.objects["Body"]
+    for obj in (twin, body):
+        obj.skin_tan.film = "WATER"
+    assert "film" not in apply_tan(twin, bpy.context.scene)
+    assert of_role(twin, "skin").inputs["Coat Weight"].is_linked
+    assert group_node(twin).inputs["Film"].default_value == 1.0
+    assert "The film does not show" in apply_tan(body, bpy.context.scene)

@@ -1,14 +1,16 @@
-"""The panel in the 3D view's sidebar. It shows values and kept lines, and computes nothing."""
+"""The panels. They show values and kept lines, and compute nothing."""
 
-from .exposures import SKIN_TAN_UL_exposures
-from .panel import VIEW3D_PT_skin_tan
+from .exposures import SKIN_TAN_MT_exposures, SKIN_TAN_UL_exposures
+from .panel import MATERIAL_TAB, SIDEBAR
 from .presets import SKIN_TAN_PT_schedule_presets, SKIN_TAN_PT_skin_presets
 from .view import VIEW3D_PT_skin_tan_view
 
 CLASSES = (
-    SKIN_TAN_UL_exposures,
-    VIEW3D_PT_skin_tan,
-    VIEW3D_PT_skin_tan_view,
     SKIN_TAN_PT_skin_presets,
     SKIN_TAN_PT_schedule_presets,
+    SKIN_TAN_UL_exposures,
+    SKIN_TAN_MT_exposures,
+    *SIDEBAR,
+    *MATERIAL_TAB,
+    VIEW3D_PT_skin_tan_view,
 )

@@ -1,6 +1,6 @@
 """The list of exposures, and the selected one."""
 
-from typing import Any
+from typing import Any, cast
 
 import bpy
 
@@ -35,6 +35,17 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
             row.label(text=summary.of_exposure(Exposure.of(item)))
 
 
+class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801
+    bl_label = "Times in the Sun"
+
+    def draw(self, context):
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.operator("skin_tan.duplicate_exposure", icon="DUPLICATE")
+        layout.operator("skin_tan.copy_to_selected", icon="COPYDOWN")
+        layout.separator()
+        layout.operator("skin_tan.export_schedule", icon="EXPORT")
+
+
 def draw_exposures(
     layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
 ) -> None:
@@ -46,7 +57,7 @@ def draw_exposures(
     buttons = row.column(align=True)
     buttons.operator("skin_tan.add_exposure", text="", icon="ADD")
     buttons.operator("skin_tan.remove_exposure", text="", icon="REMOVE")
-    buttons.operator("skin_tan.duplicate_exposure", text="", icon="DUPLICATE")
+    buttons.menu("SKIN_TAN_MT_exposures", text="", icon="DOWNARROW_HLT")
     if len(settings.exposures) > 1:
         up: Any = buttons.operator("skin_tan.move_exposure", text="", icon="TRIA_UP")
         down: Any = buttons.operator("skin_tan.move_exposure", text="", icon="TRIA_DOWN")

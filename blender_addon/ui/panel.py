@@ -1,108 +1,205 @@
-"""The panel, from top to bottom."""
+"""The panels, from top to bottom: in the sidebar of the 3D view, and beside a material."""
 
-from typing import cast
+from typing import Any, cast
 
 import bpy
 
-from hylios.errors import InputError
-
 from ..applied import is_changed
-from ..model import summary
-from ..model.catalogue import FILE
-from ..model.timing import FRAMES, SPEED
 from ..ops.active import active_mesh, current_scene
-from ..props import SkinTanSettings, settings_of
+from ..props import settings_of
 from ..scene.timeline import shown_day
 from .exposures import draw_exposures
-from .lines import draw_lines
-from .masks import draw_mask, draw_object_mask
+from .masks import draw_object_mask
 from .materials import draw_materials
+from .presets import SKIN_TAN_PT_schedule_presets, SKIN_TAN_PT_skin_presets
 from .size import draw_size
+from .skin import draw_film, draw_skin
+from .timeline import draw_timeline
 
 
-class VIEW3D_PT_skin_tan(bpy.types.Panel):  # noqa: N801
-    bl_label = "Skin Tan"
-    bl_idname = "VIEW3D_PT_skin_tan"
+class _Sidebar:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Tan"
 
-    def draw(self, context):
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_decorate = False
+
+class _MaterialTab:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "material"
+
+
+class _Main:
+    bl_label = "Skin Tan"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = _layout(self)
         obj = active_mesh(context)
         if obj is None:
             layout.label(text="Select a mesh object", icon="INFO")
             return
         settings = settings_of(obj)
-        _draw_skin(_section(layout, "Skin"), obj, context)
-        draw_exposures(_section(layout, "Time in the Sun"), obj, context)
-        draw_object_mask(_section(layout, "Mask: Where the Sun Reaches"), obj, context)
-        draw_materials(_section(layout, "Materials"), obj)
-        _draw_timeline(_section(layout, "Timeline"), settings)
-        draw_size(layout, obj, context.scene)
-        layout.separator()
         row = layout.row()
         row.scale_y = 1.5
         row.operator("skin_tan.apply", icon="MATERIAL")
-        layout.prop(settings, "live")
-        if is_changed(obj, current_scene(context)) and not settings.live:
-            layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
-        layout.operator("skin_tan.export_schedule", icon="EXPORT")
         day = shown_day(obj)
         if day is not None:
             layout.label(text=f"This frame shows day {day:.1f}", icon="TIME")
+        if settings.group is None:
+            return
+        layout.prop(settings, "live")
+        if is_changed(obj, current_scene(context)) and not settings.live:
+            layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
+        draw_size(layout, obj, current_scene(context))
 
 
-def _section(layout: bpy.types.UILayout, title: str) -> bpy.types.UILayout:
-    layout.separator()
-    column = layout.column()
-    column.label(text=title)
-    return column
+class _Section:
+    """A sub-panel on one subject of the active mesh."""
+
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return active_mesh(context) is not None
 
 
-def _draw_skin(
-    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
-) -> None:
-    settings = settings_of(obj)
-    layout.prop(settings, "skin", text="")
-    if settings.skin == FILE:
-        layout.prop(settings, "table_path", text="")
-    draw_lines(layout, *skin_lines(settings))
-    layout.prop(settings, "film")
-    if settings.film != "NONE":
-        draw_mask(layout, obj, settings.film_mask, context, "No mask: it lies everywhere")
-    layout.prop(settings, "own_minimal_doses")
-    if settings.own_minimal_doses:
-        column = layout.column(align=True)
-        column.prop(settings, "mmd")
-        column.prop(settings, "med")
+class _Skin(_Section):
+    bl_label = "Skin"
+    bl_options: set[str] = set()
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        SKIN_TAN_PT_skin_presets.draw_panel_header(_layout(self))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_skin(_layout(self), _mesh(context))
 
 
-def skin_lines(settings: SkinTanSettings) -> tuple[tuple[str, ...], str]:
-    """Short lines on what the skin's table says of it, and their icon."""
-    if settings.skin == FILE and not settings.table_path:
-        return ("Choose a skin table (EXR file)",), "INFO"
-    try:
-        return summary.of_table(settings.table_file()), "INFO"
-    except InputError:
-        # The whole sentence would be cut off here; Apply reports it.
-        if settings.skin == FILE:
-            return ("This is not a usable skin table",), "ERROR"
-        return ("This skin's table is damaged:", "install the add-on anew"), "ERROR"
+class _Exposures(_Section):
+    bl_label = "Time in the Sun"
+    bl_options: set[str] = set()
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        SKIN_TAN_PT_schedule_presets.draw_panel_header(_layout(self))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_exposures(_layout(self), _mesh(context), context)
 
 
-def _draw_timeline(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
-    way = settings.timing_values().way
-    layout.prop(settings, "timing", text="")
-    column = layout.column(align=True)
-    for day, frame in (("first_day", "first_frame"), ("last_day", "last_frame")):
-        row = column.row(align=True)
-        row.prop(settings, day, text="Day")
-        if way == FRAMES or (way == SPEED and frame == "first_frame"):
-            row.prop(settings, frame, text="at Frame")
-    if way == SPEED:
-        column.prop(settings, "days_per_second")
-    row = layout.row(align=True)
-    row.operator("skin_tan.go_to_darkest_day", text="Darkest Day", icon="TIME")
-    row.operator("skin_tan.reset_timing", text="Reset", icon="FILE_REFRESH")
+class _Mask(_Section):
+    bl_label = "Where the Sun Reaches"
+    bl_options: set[str] = set()
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_object_mask(_layout(self), _mesh(context), context)
+
+
+class _Timeline(_Section):
+    bl_label = "Timeline"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_timeline(_layout(self), settings_of(_mesh(context)))
+
+
+class _Materials(_Section):
+    bl_label = "Materials That Tan"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_materials(_layout(self), _mesh(context))
+
+
+class _Film(_Section):
+    bl_label = "On the Skin"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_film(_layout(self), _mesh(context), context)
+
+
+def _layout(panel: Any) -> bpy.types.UILayout:
+    layout = cast(bpy.types.UILayout, panel.layout)
+    layout.use_property_decorate = False
+    return layout
+
+
+def _mesh(context: bpy.types.Context) -> bpy.types.Object:
+    """The active mesh, where `poll` found one."""
+    return cast(bpy.types.Object, active_mesh(context))
+
+
+class VIEW3D_PT_skin_tan(_Sidebar, _Main, bpy.types.Panel):  # noqa: N801
+    pass
+
+
+class VIEW3D_PT_skin_tan_skin(_Sidebar, _Skin, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class VIEW3D_PT_skin_tan_exposures(_Sidebar, _Exposures, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class VIEW3D_PT_skin_tan_mask(_Sidebar, _Mask, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class VIEW3D_PT_skin_tan_timeline(_Sidebar, _Timeline, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class VIEW3D_PT_skin_tan_materials(_Sidebar, _Materials, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class VIEW3D_PT_skin_tan_film(_Sidebar, _Film, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan(_MaterialTab, _Main, bpy.types.Panel):  # noqa: N801
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+
+class MATERIAL_PT_skin_tan_skin(_MaterialTab, _Skin, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan_exposures(_MaterialTab, _Exposures, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan_mask(_MaterialTab, _Mask, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan_timeline(_MaterialTab, _Timeline, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan_materials(_MaterialTab, _Materials, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+class MATERIAL_PT_skin_tan_film(_MaterialTab, _Film, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan"
+
+
+SIDEBAR = (
+    VIEW3D_PT_skin_tan,
+    VIEW3D_PT_skin_tan_skin,
+    VIEW3D_PT_skin_tan_exposures,
+    VIEW3D_PT_skin_tan_mask,
+    VIEW3D_PT_skin_tan_timeline,
+    VIEW3D_PT_skin_tan_materials,
+    VIEW3D_PT_skin_tan_film,
+)
+MATERIAL_TAB = (
+    MATERIAL_PT_skin_tan,
+    MATERIAL_PT_skin_tan_skin,
+    MATERIAL_PT_skin_tan_exposures,
+    MATERIAL_PT_skin_tan_mask,
+    MATERIAL_PT_skin_tan_timeline,
+    MATERIAL_PT_skin_tan_materials,
+    MATERIAL_PT_skin_tan_film,
+)

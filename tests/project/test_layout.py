@@ -25,6 +25,8 @@ ALLOWED = {
     "lut_builder/near_far_fit.py": {"numpy", "scipy", "hylios"},
     "lut_builder/trade/figure.py": {"numpy", "matplotlib", "hylios"},
     "blender_addon": {"numpy", "bpy", "bmesh", "bpy_extras", "mathutils", "hylios"},
+    "blender_addon/ops/presets.py": {"bpy", "bl_operators", "hylios"},
+    "blender_addon/ui/presets.py": {"bpy", "bl_ui"},
     "blender_addon/package.py": {"bpy", "hylios"},
 }
 """What each room may import besides the standard library and itself; the longest match counts."""

@@ -19,7 +19,7 @@ ICONS = {
 class Layout:
     """Records the labels; refuses properties, operators and icons that do not exist."""
 
-    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y"}
+    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y", "emboss"}
 
     def __init__(self, labels: list[str]):
         object.__setattr__(self, "labels", labels)
@@ -51,6 +51,14 @@ class Layout:
             self.labels.append(f"[{text}]")
         return Properties(properties)
 
+    def menu(self, name, *, text, icon):
+        assert icon in ICONS
+        kind = getattr(bpy.types, name)
+        kind.draw(Panel(self.labels), bpy.context)
+
+    def popover(self, *, panel, icon, text):
+        assert icon in ICONS and hasattr(bpy.types, panel)
+
     def template_list(self, kind, identifier, data, name, active_data, active_name, *, rows):
         assert hasattr(bpy.types, kind)
         assert name in data.bl_rna.properties and active_name in active_data.bl_rna.properties
@@ -75,9 +83,14 @@ class Panel:
         self.layout = Layout(labels)
 
 
-def drawn(kind=panel.VIEW3D_PT_skin_tan) -> list[str]:
+def drawn(*kinds) -> list[str]:
+    """Labels of some panels, or of the whole sidebar."""
     labels: list[str] = []
-    kind.draw(Panel(labels), bpy.context)
+    for kind in kinds or panel.SIDEBAR:
+        if not hasattr(kind, "poll") or kind.poll(bpy.context):
+            if hasattr(kind, "draw_header_preset"):
+                kind.draw_header_preset(Panel(labels), bpy.context)
+            kind.draw(Panel(labels), bpy.context)
     return labels
 
 

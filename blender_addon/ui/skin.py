@@ -1,0 +1,46 @@
+"""Whose skin it is, and what lies on it."""
+
+import bpy
+
+from hylios.errors import InputError
+
+from ..model import summary
+from ..model.catalogue import FILE
+from ..props import SkinTanSettings, settings_of
+from .lines import draw_lines
+from .masks import draw_mask
+
+
+def draw_skin(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    settings = settings_of(obj)
+    layout.prop(settings, "skin", text="")
+    if settings.skin == FILE:
+        layout.prop(settings, "table_path", text="")
+    draw_lines(layout, *skin_lines(settings))
+    layout.prop(settings, "own_minimal_doses")
+    if settings.own_minimal_doses:
+        column = layout.column(align=True)
+        column.prop(settings, "mmd")
+        column.prop(settings, "med")
+
+
+def draw_film(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
+) -> None:
+    settings = settings_of(obj)
+    layout.prop(settings, "film")
+    if settings.film != "NONE":
+        draw_mask(layout, obj, settings.film_mask, context, "No mask: it lies everywhere")
+
+
+def skin_lines(settings: SkinTanSettings) -> tuple[tuple[str, ...], str]:
+    """Short lines on what the skin's table says of it, and their icon."""
+    if settings.skin == FILE and not settings.table_path:
+        return ("Choose a skin table (EXR file)",), "INFO"
+    try:
+        return summary.of_table(settings.table_file()), "INFO"
+    except InputError:
+        # The whole sentence would be cut off here; Apply reports it.
+        if settings.skin == FILE:
+            return ("This is not a usable skin table",), "ERROR"
+        return ("This skin's table is damaged:", "install the add-on anew"), "ERROR"

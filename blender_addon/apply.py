@@ -197,7 +197,7 @@ def _on_film(obj: bpy.types.Object, skin: skins.Skin) -> list[str]:
 
 
 def _on_size(obj: bpy.types.Object, scene: bpy.types.Scene) -> list[str]:
-    lines = lines_on(size.length(obj, scene))
+    lines = lines_on(size.length(obj, scene)) if size.shows_our_light(obj) else ()
     return [f"{' '.join(lines)}; press Fit Skin to Size."] if lines else []
 
 

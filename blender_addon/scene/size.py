@@ -35,6 +35,19 @@ def length(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
     return body_unit(obj, scene) * float(sides.max())
 
 
+def shows_our_light(obj: bpy.types.Object) -> bool:
+    """Whether an object shows our shader: an artist's own scatters light as he has set it."""
+    group = remembered(obj).group
+    if group is None:
+        return False
+    nodes_of_materials = (node for tree in slots.shown_trees(obj, group) for node in tree.nodes)
+    return any(
+        getattr(node, "node_tree", None) == group and node.outputs["Surface"].is_linked
+        for node in nodes_of_materials
+        if "Surface" in node.outputs
+    )
+
+
 def light_goes(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
     """How many times too far light goes in an object's skin; 1 where it has none."""
     right = nodes.radius_of_millimetre(body_unit(obj, scene))

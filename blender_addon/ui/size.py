@@ -20,7 +20,9 @@ def draw_size(layout: bpy.types.UILayout, obj: bpy.types.Object, scene: bpy.type
 
 
 def size_lines(obj: bpy.types.Object, scene: bpy.types.Scene) -> tuple[str, ...]:
-    """Short lines on what is wrong with the size of an object, if anything is."""
+    """Short lines on what is wrong with the size of an object's skin, if anything is."""
+    if not size.shows_our_light(obj):
+        return ()
     try:
         times = size.light_goes(obj, scene)
         lines = lines_on(size.length(obj, scene))

@@ -2,10 +2,12 @@
 
 import bpy
 import pytest
+from artist_skins import plain, wear
 from scenes import apply, of_role, tan_object
 from test_changes import inventory
 
 from blender_addon import size as mending
+from blender_addon.apply import apply_tan
 from blender_addon.ui.size import size_lines
 from hylios.errors import InputError
 
@@ -54,7 +56,6 @@ def test_a_shot_in_other_units_is_right_from_the_start(table_path, tanned, unit)
     settings = bpy.context.scene.unit_settings
     settings.system, settings.scale_length = "IMPERIAL", unit
     obj = body(table_path, 1.7 / unit)
-    assert lines(obj) == ()
     apply(obj)
     assert lines(obj) == ()
     assert radius(obj) == pytest.approx(radius(tanned) / unit)
@@ -94,10 +95,8 @@ def test_units_that_change_without_the_body(tanned):
 
 def test_a_giant_is_mended_by_one_click(table_path, tanned):
     giant = body(table_path, 17.0)
-    assert lines(giant) == ("17 m is too large for a person:", "its skin hardly scatters light")
-    from blender_addon.apply import apply_tan
-
     said = apply_tan(giant, bpy.context.scene)
+    assert lines(giant) == ("17 m is too large for a person:", "its skin hardly scatters light")
     assert said.endswith(
         "too large for a person: its skin hardly scatters light; press Fit Skin to Size."
     )
@@ -117,6 +116,12 @@ def test_before_apply_the_button_sets_the_scale(table_path):
     giant = body(table_path, 170.0)
     fit()
     assert giant.skin_tan.model_scale == pytest.approx(100.0) and lines(giant) == ()
+
+
+def test_an_artist_s_own_shader_scatters_as_he_set_it(table_path):
+    giant = body(table_path, 17.0)
+    wear(giant, [plain("skin")])
+    assert "person" not in apply_tan(giant, bpy.context.scene) and lines(giant) == ()
 
 
 def test_a_scale_that_the_artist_sets_waits_for_the_button(tanned):

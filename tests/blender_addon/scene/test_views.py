@@ -103,17 +103,22 @@ def saved_size(tmp_path) -> int:
     return path.stat().st_size
 
 
+def own_properties(scene) -> dict:
+    """Less what Blender 4.5 makes for registered properties when they are read."""
+    return {name: value for name, value in scene.items() if name != "skin_tan"}
+
+
 def test_back_without_a_trace(bodies, tmp_path):
     saved_size(tmp_path)
     scene = bpy.context.scene
-    before, keys, size = inventory(), dict(scene.items()), saved_size(tmp_path)
+    before, keys, size = inventory(), own_properties(scene), saved_size(tmp_path)
     for view in VIEWS:
         assert switch(view) == {"FINISHED"}
         assert scene.skin_tan.view == view
     (image,) = (image for image in bpy.data.images if "skin_tan_view_image" in image)
     assert inventory() != before and image.packed_file
     switch("VISIBLE")
-    assert inventory() == before and dict(scene.items()) == keys
+    assert inventory() == before and own_properties(scene) == keys
     assert abs(saved_size(tmp_path) - size) < 500
 
 

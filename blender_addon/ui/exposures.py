@@ -24,15 +24,14 @@ FIELDS = {
 class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
     def draw_item(self, context, layout, data, item, icon, active_data, active_property):
         row = layout.row(align=True)
-        row.use_property_split = False
         row.prop(item, "enabled", text="")
+        split = row.split(factor=0.66)
+        split.active = item.enabled
         if item.name:
-            row.prop(item, "name", text="", emboss=False)
-        row.prop(item, "day", text="Day", emboss=False)
-        if item.unit == "SED":
-            row.prop(item, "dose", text="SED", emboss=False)
+            split.prop(item, "name", text="", emboss=False)
         else:
-            row.label(text=summary.of_exposure(Exposure.of(item)))
+            split.label(text=summary.of_exposure(Exposure.of(item)))
+        split.prop(item, "day", text="Day", emboss=False)
 
 
 class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801
@@ -69,6 +68,7 @@ def draw_exposures(
     layout.prop(exposure, "name")
     layout.prop(exposure, "unit")
     column = layout.column(align=True)
+    column.prop(exposure, "day")
     for names in FIELDS.get(exposure.unit, ()):  # a later version may know more units
         row = column.row(align=True)
         for name in names:

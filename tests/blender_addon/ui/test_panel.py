@@ -19,7 +19,7 @@ ICONS = {
 class Layout:
     """Records the labels; refuses properties, operators and icons that do not exist."""
 
-    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y", "emboss"}
+    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y", "emboss", "active"}
 
     def __init__(self, labels: list[str]):
         object.__setattr__(self, "labels", labels)
@@ -31,6 +31,10 @@ class Layout:
         return Layout(self.labels)
 
     column = row
+
+    def split(self, *, factor):
+        assert 0.0 < factor < 1.0
+        return Layout(self.labels)
 
     def separator(self):
         pass

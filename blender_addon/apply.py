@@ -93,6 +93,38 @@ def list_materials(obj: bpy.types.Object | None) -> None:
         slots.remember(obj, slots.ticks(obj, skins.group_of(obj)), changes)
 
 
+def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:
+    """The object, if it is a mesh.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+    """
+    if obj is None:
+        raise InputError("No object is active; select a mesh object.")
+    if obj.type != "MESH":
+        raise InputError(f"{obj.name!r} is of type {obj.type}; select a mesh object.")
+    return obj
+
+
+def timeable(obj: bpy.types.Object | None) -> bpy.types.Object:
+    """The object, if the day of its tan can be keyed: a local mesh object or a library override.
+
+    Raises
+    ------
+    InputError
+        If it cannot.
+    """
+    obj = mesh_object(obj)
+    if obj.library is not None:
+        raise InputError(
+            f"The object {obj.name!r} is linked from another file; allowed is a local one or a "
+            "library override (Object > Library Override > Make)."
+        )
+    return obj
+
+
 def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
     """The object, if it can carry a tan.
 
@@ -101,10 +133,7 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
     InputError
         If it cannot.
     """
-    if obj is None:
-        raise InputError("No object is active; select a mesh object.")
-    if obj.type != "MESH":
-        raise InputError(f"{obj.name!r} is of type {obj.type}; select a mesh object.")
+    obj = mesh_object(obj)
     action = obj.animation_data.action if obj.animation_data else None
     for block, what in ((obj, "object"), (obj.data, "mesh of"), (action, "animation of")):
         if block is not None and block.override_library is not None:

@@ -17,7 +17,9 @@ def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     objects: Any = bpy.types.Object
-    objects.skin_tan = bpy.props.PointerProperty(type=props.SkinTanSettings)
+    objects.skin_tan = bpy.props.PointerProperty(
+        type=props.SkinTanSettings, override={"LIBRARY_OVERRIDABLE"}
+    )
     scenes: Any = bpy.types.Scene
     scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
     bpy.utils.register_preset_path(FOLDER)

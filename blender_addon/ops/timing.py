@@ -5,7 +5,7 @@ import bpy
 from hylios.errors import InputError
 
 from .. import timing
-from ..apply import tannable
+from ..apply import timeable
 from .active import active_mesh, active_object, current_scene
 
 
@@ -21,7 +21,7 @@ class SKIN_TAN_OT_reset_timing(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         try:
-            obj = tannable(active_object(context))
+            obj = timeable(active_object(context))
             message = timing.reset(obj, current_scene(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
@@ -42,7 +42,7 @@ class SKIN_TAN_OT_go_to_darkest_day(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         try:
-            message = timing.show_darkest(tannable(active_object(context)), current_scene(context))
+            message = timing.show_darkest(timeable(active_object(context)), current_scene(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

@@ -4,6 +4,7 @@ from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask
 from .material import SkinTanMaterial
 from .object import SkinTanSettings, settings_of, table_file
+from .overriding import overridable
 from .scene import SkinTanScene
 
 __all__ = [
@@ -19,10 +20,9 @@ __all__ = [
 ]
 
 CLASSES = (
-    SkinTanMask,
-    SkinTanFilmMask,
-    SkinTanExposure,
-    SkinTanMaterial,
-    SkinTanSettings,
+    *map(
+        overridable,
+        (SkinTanMask, SkinTanFilmMask, SkinTanExposure, SkinTanMaterial, SkinTanSettings),
+    ),
     SkinTanScene,
 )

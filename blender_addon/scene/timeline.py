@@ -169,6 +169,8 @@ def _set_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
         changes.on_failure(_set_appearance, obj, appearance.as_dict())
     changes.set_key(obj, DAY_PROPERTY, day)
     _set_appearance(obj, {"description": "Day of the tan", "precision": 2})
+    # A shot that links the character may key its own days.
+    cast(Any, obj).property_overridable_library_set(DATA_PATH, True)
 
 
 def _set_appearance(obj: bpy.types.Object, appearance: dict[str, Any]) -> None:
@@ -218,10 +220,10 @@ def _own_action(
     if action is None:
         action = bpy.data.actions.new(f"{obj.name}Action")
         slot = None
-    elif slot is not None and any(user != obj for user in slot.users()):
-        identifier = slot.identifier
+    elif action.library or (slot is not None and any(user != obj for user in slot.users())):
+        identifier = slot and slot.identifier
         action = action.copy()
-        slot = action.slots[identifier]
+        slot = action.slots[identifier] if identifier else None
     if slot is None:
         changes.may_add_to(action.slots)
         slot = action.slots.new(id_type="OBJECT", name=obj.name)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.adding.surface import fresnel
 from hylios.tissue.liquids import LIQUIDS
 
 from .layer import INDEX, let_through
@@ -18,6 +19,9 @@ from .look import NORMAL_ANGLE
 
 ROUGHNESS = {"water": 0.05, "oil": 0.12, "sunscreen": 0.2}
 """Of a film's face as a shader has it, by eye; the light model's is flat."""
+
+USUAL_ANGLE = 30.0
+"""Of view, in degrees."""
 
 DEEP_MILLIMETRES = 0.1
 """Depth of pores and fine lines, which a film fills from below."""
@@ -37,6 +41,9 @@ class Film:
         Of its face.
     relief : float
         Of its face, as a share of the skin's.
+    more_through : float
+        Share by which film and skin let more light through than dry skin's gloss; much the same at
+        all angles of view up to 70 degrees.
     start, slope : tuples of 3 float
         A shader's base colour under the film, over that without one, is 1 + start + slope times
         the colour of the light that has been inside skin without a film, in each channel.
@@ -46,6 +53,7 @@ class Film:
     index: float
     roughness: float
     relief: float
+    more_through: float
     start: tuple[float, float, float]
     slope: tuple[float, float, float]
 
@@ -54,22 +62,24 @@ def film_of(liquid: str, roughness: float) -> Film:
     """A film of one of `hylios.tissue.liquids.LIQUIDS` on skin with a shader's roughness."""
     index, thickness = LIQUIDS[liquid].index, LIQUIDS[liquid].thickness
     start, slope = _fits()[liquid]
-    # As much as the gloss without a film keeps from the base, over what film and skin keep.
-    through = (1.0 - _reflected(1.0, index)) * (1.0 - _reflected(index, INDEX))
-    ratio = float(let_through(roughness, NORMAL_ANGLE)) / through
+    ratio = _dry_over_wet(index, roughness, NORMAL_ANGLE)
     return Film(
         liquid=liquid,
         index=index,
         roughness=ROUGHNESS[liquid],
         relief=max(0.0, 1.0 - thickness / DEEP_MILLIMETRES),
+        more_through=1.0 / _dry_over_wet(index, roughness, USUAL_ANGLE) - 1.0,
         start=tuple((ratio * start - 1.0).tolist()),
         slope=tuple((ratio * slope).tolist()),
     )
 
 
-def _reflected(index: float, beyond: float) -> float:
-    """Share of light that a flat face reflects straight back."""
-    return ((index - beyond) / (index + beyond)) ** 2
+def _dry_over_wet(index: float, roughness: float, angle: float) -> float:
+    """What dry skin's gloss lets through, over what film and skin do, at an angle in degrees."""
+    face, _ = fresnel(np.cos(np.radians(angle)), 1.0, index)
+    beneath, _ = fresnel(1.0, index, INDEX)
+    through = (1.0 - face) * (1.0 - beneath)
+    return float(let_through(roughness, angle) / through)
 
 
 @functools.cache

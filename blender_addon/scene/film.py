@@ -25,7 +25,10 @@ ROLES = {
     "film_level": vector_role("MULTIPLY_ADD", "With a film", (1400, 1250)),
     "film_index": math_role("MULTIPLY_ADD", "Index beneath a film", (1250, 1050)),
     "index": math_role("MULTIPLY_ADD", "Index", (1400, 1050), at_2=INDEX),
-    "film_lobes": math_role("MAXIMUM", "Oil or a film", (1100, 900)),
+    "film_part": math_role("LESS_THAN", "Not all covered", (950, 900), at_1=0.999),
+    "film_lobes": math_role("MULTIPLY", "Oil without a film over it", (1100, 900)),
+    "film_more": math_role("MULTIPLY_ADD", "More than without a film", (1400, 950), at_2=1.0),
+    "film_through": math_role("MULTIPLY", "What a film lets through", (1620, 950)),
     "film_relief": Role("ShaderNodeMix", "Relief of a film", (2200, -600), {"data_type": "VECTOR"}),
     "film_normal": vector_role("NORMALIZE", "Normal of a film", (2350, -600)),
 }
@@ -41,10 +44,14 @@ LINKS: tuple[Link, ...] = (
     ("facing", "Facing", "film_index", 0),
     ("film_index", "Value", "index", 0),
     ("film", "Value", "index", 1),
-    # Under a coat both shaders show their light, so that the near one has a coat, too.
+    ("film", "Value", "film_part", 0),
     ("input", "Oil", "film_lobes", 0),
-    ("film", "Value", "film_lobes", 1),
+    ("film_part", "Value", "film_lobes", 1),
     ("film_lobes", "Value", "two_lobes", 0),
+    ("film", "Value", "film_more", 0),
+    ("through", "Value", "film_through", 0),
+    ("film_more", "Value", "film_through", 1),
+    ("film_through", "Value", "beneath", 0),
     ("geometry", "Normal", "film_relief", "A_Vector"),
     ("normal", "Vector", "film_relief", "B_Vector"),
     ("film_relief", "Result_Vector", "film_normal", 0),
@@ -55,6 +62,9 @@ LINKS: tuple[Link, ...] = (
 
 FILM_KEY = "skin_tan_film"
 """Custom property of a group: the name of the liquid that it shows."""
+
+REPLACED = {"two_lobes": "input", "beneath": "through"}
+"""Roles whose first input a film takes over, and what is linked there without one."""
 
 UNTOUCHED = {"IOR": INDEX, "Coat Weight": 0.0}
 """Inputs of a shader that a film is linked to where the artist has left them so."""
@@ -79,6 +89,8 @@ class Film:
         Of its face.
     relief : float
         Of its face, as a share of the skin's.
+    more_through : float
+        Share by which film and skin let more light through than dry skin's gloss.
     start, slope : tuples of 3 float
         The base colour beneath it, over that without one, is 1 + start + slope x colour.
     """
@@ -87,6 +99,7 @@ class Film:
     index: float
     roughness: float
     relief: float
+    more_through: float
     start: tuple[float, float, float]
     slope: tuple[float, float, float]
 
@@ -174,10 +187,11 @@ def _add(group: Any, trees: Collection[Any], changes: Changes) -> None:
                 if getattr(node, "node_tree", None) == group:
                     # Blender gives new inputs of a node 0, whatever their default is.
                     node.inputs[FILM].default_value = INPUTS[FILM][0]
-    for node in nodes.of_role(group, "two_lobes"):
-        for former in node.inputs[0].links:
-            if former.from_node.get(ROLE_KEY) == "input":
-                group.links.remove(former)
+    for role, source in REPLACED.items():
+        for node in nodes.of_role(group, role):
+            for former in node.inputs[0].links:
+                if former.from_node.get(ROLE_KEY) == source:
+                    group.links.remove(former)
     nodes.complete(group, ROLES, ROLES, [link for link in LINKS if _is_free(group, link)])
 
 
@@ -216,6 +230,7 @@ def _values(film: Film | None, level: float) -> dict[str, dict[str | int, Any]]:
             1: tuple(level * value for value in film.slope),
             2: tuple(level * value for value in film.start),
         },
+        "film_more": {1: film.more_through},
         "film_index": {1: 1.0 - beneath, 2: beneath - INDEX},
         "film_relief": {"Factor_Float": film.relief},
     }

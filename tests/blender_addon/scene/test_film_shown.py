@@ -58,7 +58,6 @@ def test_film_and_skin_show_what_the_light_model_says(body, tmp_path, liquid):
     """What they reflect by Fresnel, and the light from inside beside that of dry skin by a fit."""
     worn(body, "NONE")
     roughness = group_node(body).inputs["Roughness"].default_value
-    group_node(body).inputs["Oil"].default_value = 1e-6  # two shaders, as under a film
     dry_through = float(let_through(roughness, NORMAL_ANGLE))
     dry = shown(tmp_path, 256) - (1.0 - dry_through)
     worn(body, liquid.upper())
@@ -68,6 +67,13 @@ def test_film_and_skin_show_what_the_light_model_says(body, tmp_path, liquid):
     numbers = film_of(liquid, roughness)
     change = 1.0 + np.array(numbers.start) + np.array(numbers.slope) * UNTANNED_COLOUR
     assert wet / dry == pytest.approx(change * through / dry_through, abs=0.002)
+
+
+def test_oil_beneath_a_film_changes_nothing(body, tmp_path):
+    worn(body, "WATER")
+    plain = shown(tmp_path)
+    group_node(body).inputs["Oil"].default_value = 1.0
+    assert shown(tmp_path) == pytest.approx(plain, abs=1e-6)
 
 
 def test_skin_without_a_film_has_no_nodes_for_one(body):

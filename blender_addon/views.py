@@ -82,6 +82,8 @@ def keep_view(group: Any, trees: list[Any], changes: Changes) -> list[str]:
     The trees lead to it from materials.
     """
     view = views.view_of_file() or VISIBLE
+    if view not in VIEWS:
+        view = VISIBLE  # of a later version
     why = _switch(group, trees, view, _bands(view), changes)
     views.remove_unused_images(changes)
     return [f"It shows the visible, not {_called(view)}: {why}."] if why else []

@@ -16,6 +16,7 @@ from blender_addon.model.layer import let_through
 from blender_addon.model.views import VIEWS
 from blender_addon.scene import changes as changes_module
 from blender_addon.scene import recolour
+from hylios.errors import InputError
 from hylios.table import melanin_dynamics, minimal_doses, read_table
 from hylios.tanning import Exposures, simulate
 
@@ -296,9 +297,15 @@ def test_linked_skin_stays_as_it_is(bodies, tmp_path):
     assert "Linked skin stays as it is: 'Linked'." in said
 
 
-def test_a_view_that_is_not_there():
+def test_a_view_that_is_not_there(bodies):
     with pytest.raises(TypeError):
         switch("NM700")
+    with pytest.raises(InputError, match="allowed is one of VISIBLE, NM365"):
+        switching.switch_view("NM700")
+    bpy.context.scene["skin_tan_view"] = "NM700"  # of a later version
+    assert bpy.context.scene.skin_tan.view == "VISIBLE"
+    assert apply(bodies[0]) == {"FINISHED"}
+    assert "skin_tan_view" not in tan_group(bodies[0])
 
 
 @pytest.fixture

@@ -18,11 +18,8 @@ from hylios.sun.doses import Doses
 from hylios.tanning import Exposures, MelaninDynamics
 from hylios.tanning.shares import Energies, responses_of_shares, retained, states_of_shares
 
-from .thinning import by_bend, by_error
-
-STEPS = 1024
-"""Even steps of the shares from none to all, and of the days. A jump is spread over one step of the
-share."""
+from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
+from .thinning import by_error
 
 EVEN_STEPS = 64
 """A share is simulated after so many steps at the latest."""
@@ -33,18 +30,15 @@ MOST_ROWS, MOST_COLUMNS = 160, 128
 TOLERANCE = 0.0045
 """Largest error of u and v between rows or columns; u of .01 is about .07 CIEDE2000."""
 
+FEW_SHARES = 6
+"""Shares whose tans decide which hours are simulated."""
+
 SHOWN, HOURS_TO_PEAK = 8, 60
 """Most hours at which the response decides which shares are simulated; how long after an
 exposure."""
 
 THICKENING = 0.1
 """What a change of the response means for v, over what it means for u."""
-
-FEW_SHARES = 6
-"""Shares whose tans decide which hours are simulated."""
-
-REMEMBERED = 120
-"""Hours before the first day that are candidates, all of them: what has just begun goes on."""
 
 LONG = 24 * 61
 """Hours beyond which a precision takes its rows for a long time."""
@@ -143,31 +137,23 @@ def history(
     exposures = received.exposures()
     energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
     steps = _steps(energies, _shown(exposures, end), precision)
-    hours = _marks(energies, steps, _begun(exposures), (first, end), precision)
+    few = steps[np.linspace(0, len(steps) - 1, FEW_SHARES + 1).astype(int)[1:]] / STEPS
+    rows = precision.rows_within(first, end)
+    hours = hours_to_simulate(energies, few, exposures, (first, end), rows, precision.candidates)
     states = states_of_shares(energies, steps / STEPS, hours, precision.dtype)
     states, hours = states[hours >= first], hours[hours >= first]
     values = coordinates_of(states)
     if precision.thinned:
-        rows, columns = _thinned(hours, steps, values)
-        hours, steps = hours[rows], steps[columns]
-        values, states = (lines[rows[:, None], columns] for lines in (values, states))
+        kept, columns = _thinned(hours, steps, values)
+        hours, steps = hours[kept], steps[columns]
+        values, states = (lines[kept[:, None], columns] for lines in (values, states))
     else:
-        values = _filled(values, precision.rows_within(first, end), precision.columns)
+        values = _filled(values, rows, precision.columns)
     days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
     places = np.zeros((1, STEPS + 1, 3), np.float32)
-    places[0, :, 0] = _texel_places(np.arange(STEPS + 1), steps, values.shape[1])
-    places[0, :, 1] = _texel_places(days, hours, values.shape[0])
+    places[0, :, 0] = texel_places(np.arange(STEPS + 1), steps, values.shape[1])
+    places[0, :, 1] = texel_places(days, hours, values.shape[0])
     return History(values, places, first_day, last_day), states
-
-
-def coordinates_of(states: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Coordinates (..., 3) of states (..., 4), or (..., 5) with the blood."""
-    result = np.zeros((*states.shape[:-1], 3), np.float32)
-    result[..., 0] = np.log(states[..., :3].sum(axis=-1))
-    result[..., 1] = np.log(states[..., 3])
-    if states.shape[-1] > 4:
-        result[..., 2] = np.log(states[..., 4])
-    return result
 
 
 def _steps(energies: Energies, shown: NDArray[np.int_], precision: Precision) -> NDArray[np.int_]:
@@ -188,47 +174,6 @@ def _shown(exposures: Exposures, end: int) -> NDArray[np.int_]:
     return peaks[np.linspace(0, len(peaks) - 1, min(SHOWN, len(peaks))).astype(int)]
 
 
-def _marks(
-    energies: Energies,
-    steps: NDArray[np.int_],
-    begun: NDArray[np.int_],
-    span: tuple[int, int],
-    precision: Precision,
-) -> NDArray[np.int_]:
-    """Hours to simulate, from 0 to the end of a span: dense where the tans of some shares bend.
-
-    In the hours (N,) in which exposures begin they have a kink.
-    """
-    first, end = span
-    rows = precision.rows_within(*span)
-    kinks = np.unique(np.append(begun[begun <= end], np.maximum(begun - 1, 0)[begun <= end]))
-    if len(kinks) > rows // 2:
-        kinks = kinks[:0]
-    even = precision.candidates * rows
-    closely = np.arange(max(first - REMEMBERED, 0), first)
-    hours = np.unique(
-        np.concatenate([_even(0, first, even), closely, _even(first, end, even), kinks])
-    )
-    few = steps[np.linspace(0, len(steps) - 1, FEW_SHARES + 1).astype(int)[1:]]
-    states = states_of_shares(energies, few / STEPS, hours, np.float32)
-    lines = coordinates_of(states)[..., :2].reshape(len(hours), -1)
-    start = int(np.searchsorted(hours, first))
-    before = by_bend(hours[: start + 1], lines[: start + 1], rows)
-    most = rows - np.count_nonzero(kinks >= first)
-    told = start + by_bend(hours[start:], lines[start:], most)
-    return np.unique(np.concatenate([hours[before], hours[told], kinks]))
-
-
-def _begun(exposures: Exposures) -> NDArray[np.int_]:
-    """Hours in which exposures begin."""
-    hours = np.unique(exposures.hours)
-    return hours[np.diff(hours, prepend=-2) > 1]
-
-
-def _even(first: int, last: int, most: int) -> NDArray[np.int_]:
-    return np.linspace(first, last, min(most, last - first + 1)).round().astype(int)
-
-
 def _thinned(
     hours: NDArray[np.int_], steps: NDArray[np.int_], values: NDArray[np.float32]
 ) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
@@ -244,8 +189,3 @@ def _filled(values: NDArray[np.float32], rows: int, columns: int) -> NDArray[np.
     image = np.zeros((rows, columns, 3), np.float32)
     image[: len(values), : values.shape[1]] = values
     return image
-
-
-def _texel_places(wanted: NDArray, lines: NDArray[np.int_], texels: int) -> NDArray[np.float64]:
-    """Texture coordinates of places, where lines are the first texels' centres."""
-    return (np.interp(wanted, lines, np.arange(len(lines))) + 0.5) / texels

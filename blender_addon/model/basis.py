@@ -1,0 +1,289 @@
+"""Where a skin stands by day at points of several masks: a mean and a few shapes over time.
+
+A point gets a share of the doses of every mask. Its coordinates (u, v, b; see `history`) are
+
+    c(point, day) = mean(day) + sum of a_k(point) phi_k(day),  k = 1 to the rank
+
+so a mesh holds the coefficients a_k, four to a colour attribute, and a small image the mean and the
+phi_k. Attributes are interpolated across a face; a tan then runs straight from one point to the
+next, where the model has jumps.
+
+What a shader computes, for red, green and blue, which are u, v and b:
+
+1. `day` to the place of a row: y is the green of `places`, sampled linearly at
+   x = (.5 + (STEPS) (day - first_day) / (last_day - first_day)) / (STEPS + 1), y = .5;
+   the images hold their edge.
+2. the mean: `rows` sampled at x = .5 / (rank + 1) and that y.
+3. for every k: plus a_k times `rows` sampled at x = (k + .5) / (rank + 1) and that y, where a_1 to
+   a_4 are red, green, blue and alpha of the first attribute, and so on.
+
+`shown` is the same in numpy.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hylios.errors import InputError, as_numbers
+from hylios.sun.doses import Doses
+from hylios.tanning import Exposures, MelaninDynamics
+from hylios.tanning.shares import Energies, retained, states_of_shares
+
+from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
+from .principal import Shapes, principal_shapes
+
+MOST_MASKS = 8
+
+RANKS = (4, 8, 12, 16)
+"""Numbers of coefficients that a point may have: they come four to an attribute."""
+
+THICKENING = 0.35
+"""What an error of v means over one of u, for what is seen."""
+
+WANTED = {"mean": 0.003, "at 99 %": 0.017, "most": 0.039}
+"""Errors of u with which a rank is enough. An error of .01 is .03 to .19 CIEDE2000, so these are
+.05, .3 and .7 where it is seen best."""
+
+FREQUENT, TRAINING, WORST = 256, 1024, 256
+"""Points that decide the shapes: most frequent ones, all, and how many bad ones are added."""
+
+CHUNK = 1024
+"""Points that are simulated at once."""
+
+SEED = 0
+
+
+@dataclass(frozen=True)
+class BasisPrecision:
+    """How closely a basis is computed.
+
+    Attributes
+    ----------
+    levels : int
+        Even steps of a share that are told apart; fewer where too many points differ.
+    most : int
+        Most points that are simulated.
+    rows : int
+        Most hours.
+    rounds : int
+        Of `principal_shapes`.
+    rank : int or None
+        One of `RANKS`, or the least that is enough.
+    """
+
+    levels: int
+    most: int
+    rows: int
+    rounds: int
+    rank: int | None = None
+
+
+FULL = BasisPrecision(1023, 100_000, 128, 4)
+"""For what stays in a file."""
+
+DRAG = BasisPrecision(127, 8_000, 80, 1, rank=12)
+"""For a picture while somebody changes a setting."""
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """Coordinates of a skin over days at points with shares of several masks.
+
+    Attributes
+    ----------
+    coefficients : (N, rank) float32 array
+    rows : (T, 1 + rank, 3) float32 array
+        u, v and b of the mean, and of the shapes, by day; the first row is that of the first day.
+    places : (1, STEPS + 1, 3) float32 array
+        Over even steps of the days, in green: the place among the rows.
+    share : (N,) float32 array
+        Of all doses, for melanin: what a single mask's share is to a single mask.
+    error : float
+        Largest error of u over points and rows, or what v's means for u.
+    first_day, last_day : float
+    """
+
+    coefficients: NDArray[np.float32]
+    rows: NDArray[np.float32]
+    places: NDArray[np.float32]
+    share: NDArray[np.float32]
+    error: float
+    first_day: float
+    last_day: float
+
+    @property
+    def rank(self) -> int:
+        """Coefficients of a point."""
+        return self.coefficients.shape[1]
+
+
+def shown(basis: Basis, coefficients: NDArray, days: NDArray) -> NDArray[np.float64]:
+    """u, v and b (N, 3) that a shader shows with coefficients (N, rank) on days (N,)."""
+    passed = (np.asarray(days) - basis.first_day) / (basis.last_day - basis.first_day)
+    steps = np.arange(basis.places.shape[1])
+    row = np.interp(passed * steps[-1], steps, basis.places[0, :, 1]) * len(basis.rows) - 0.5
+    below = np.clip(row.astype(int), 0, max(len(basis.rows) - 2, 0))
+    above = np.minimum(below + 1, len(basis.rows) - 1)
+    part = np.clip(row - below, 0.0, 1.0)[:, None, None]
+    numbers = basis.rows[below] * (1.0 - part) + basis.rows[above] * part
+    return numbers[:, 0] + np.einsum("nk,nkc->nc", coefficients, numbers[:, 1:])
+
+
+def basis(
+    received: Sequence[Doses],
+    shares: ArrayLike,
+    melanin: MelaninDynamics,
+    *,
+    mmd: float,
+    med: float,
+    first_day: float,
+    last_day: float,
+    precision: BasisPrecision = FULL,
+) -> tuple[Basis, NDArray[np.floating]]:
+    """Simulate points of several masks; the basis, and states (..., 4) that some lead through.
+
+    Parameters
+    ----------
+    received : sequence of Doses
+        On bare skin, by mask: at most `MOST_MASKS`.
+    shares : (N, M) array
+        0 to 1, of the doses of every mask.
+    melanin, mmd, med, first_day, last_day
+        As in `history`.
+
+    Raises
+    ------
+    InputError
+        If there are too many masks, or shares, minimal doses or days are out of range.
+    """
+    given = _checked(shares, len(received))
+    first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
+    exposures = _of_masks(received)
+    energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
+    vectors, counts, point = _distinct(given, precision)
+    few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
+    marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3)
+    curves, states = _simulated(energies, vectors, marks, first)
+    hours = marks[marks >= first]
+    shapes, coefficients, error = _shapes(curves, counts, precision)
+    places = np.zeros((1, STEPS + 1, 3), np.float32)
+    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
+    places[0, :, 1] = texel_places(days, hours, len(hours))
+    rows = np.zeros((len(hours), 1 + coefficients.shape[1], 3), np.float32)
+    lines = np.concatenate([shapes.mean[None], shapes.shapes])
+    rows[..., 0] = lines[:, : len(hours)].T
+    rows[..., 1] = lines[:, len(hours) :].T / THICKENING
+    doses = exposures.doses.sum(axis=1)
+    share = given @ (doses / max(doses.sum(), 1e-30))
+    told = Basis(
+        coefficients[point],
+        rows,
+        places,
+        share.astype(np.float32),
+        error,
+        first_day,
+        last_day,
+    )
+    return told, states
+
+
+def _checked(shares: ArrayLike, masks: int) -> NDArray[np.float64]:
+    if not 1 <= masks <= MOST_MASKS:
+        raise InputError(
+            f"exposures have {masks} masks; allowed are 1 to {MOST_MASKS} different ones on a mesh."
+        )
+    given = as_numbers("shares", shares)
+    if given.ndim != 2 or given.shape[1] != masks or not len(given):
+        raise InputError(f"shares have shape {given.shape}; expected (points, {masks} masks).")
+    if not np.all((given >= 0.0) & (given <= 1.0)):
+        raise InputError("a share is out of range; allowed is 0 to 1.")
+    return given
+
+
+def _of_masks(received: Sequence[Doses]) -> Exposures:
+    """The doses of all masks, a row for every mask (M, E)."""
+    hours = np.concatenate([own.hours for own in received])
+    ends = np.cumsum([own.hours.size for own in received])
+    melanogenesis, thickening = np.zeros((2, len(received), hours.size))
+    for mask, (own, end) in enumerate(zip(received, ends, strict=True)):
+        those = slice(end - own.hours.size, end)
+        melanogenesis[mask, those], thickening[mask, those] = own.melanogenesis, own.thickening
+    return Exposures(hours, melanogenesis, thickening)
+
+
+def _distinct(
+    shares: NDArray[np.float64], precision: BasisPrecision
+) -> tuple[NDArray[np.float64], NDArray[np.int_], NDArray[np.int_]]:
+    """Points that differ (U, M), how often they are there, and which of them a point is (N,).
+
+    The most frequent come first, then others in random order.
+    """
+    levels = precision.levels
+    while True:
+        steps = (shares * levels + 0.5).astype(np.int64)
+        key = np.zeros(len(steps), np.int64)
+        for own in steps.T:
+            # Numbered anew for every mask, so that eight of them fit into the integer.
+            key = np.unique(key * (levels + 1) + own, return_inverse=True)[1]
+        _, index, point, counts = np.unique(
+            key, return_index=True, return_inverse=True, return_counts=True
+        )
+        if len(index) <= precision.most or levels <= 1:
+            break
+        levels //= 2
+    order = np.argsort(-counts, kind="stable")
+    rest = np.random.default_rng(SEED).permutation(order[FREQUENT:])
+    order = np.append(order[:FREQUENT], rest)
+    number = np.empty(len(order), int)
+    number[order] = np.arange(len(order))
+    return steps[index[order]] / levels, counts[order], number[point]
+
+
+def _simulated(
+    energies: Energies, vectors: NDArray[np.float64], marks: NDArray[np.int_], first: int
+) -> tuple[NDArray[np.float32], NDArray[np.floating]]:
+    """u, and v as it counts, of points (U, 2 T) from the first hour on; states of some."""
+    told = marks >= first
+    curves = np.empty((len(vectors), 2, np.count_nonzero(told)), np.float32)
+    kept = np.zeros(0)
+    for start in range(0, len(vectors), CHUNK):
+        part = vectors[start : start + CHUNK]
+        states = states_of_shares(energies, part, marks, np.float32)[told]
+        numbers = coordinates_of(states)
+        curves[start : start + CHUNK] = np.moveaxis(numbers[..., :2], (1, 2), (0, 1))
+        kept = kept if start else states
+    curves[:, 1] *= THICKENING
+    return curves.reshape(len(vectors), -1), kept
+
+
+def _shapes(
+    curves: NDArray[np.float32], counts: NDArray[np.int_], precision: BasisPrecision
+) -> tuple[Shapes, NDArray[np.float32], float]:
+    """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
+    ranks = RANKS if precision.rank is None else (precision.rank,)
+    for rank in ranks:
+        those = np.arange(min(TRAINING, len(curves)))
+        for _ in range(2):
+            weights = counts[those] ** 0.25
+            shapes = principal_shapes(curves[those], rank, weights, precision.rounds)
+            coefficients = shapes.coefficients(curves)
+            errors = np.abs(shapes.curves(coefficients) - curves)
+            worst = errors.max(axis=1)
+            if worst.max() <= WANTED["most"] or len(those) == len(curves):
+                break
+            those = np.union1d(those, np.argsort(-worst)[:WORST])
+        if _is_enough(errors, counts, worst):
+            break
+    return shapes, coefficients, float(worst.max())
+
+
+def _is_enough(errors: NDArray, counts: NDArray, worst: NDArray) -> bool:
+    mean = np.average(errors.mean(axis=1), weights=counts)
+    order = np.argsort(worst)
+    passed = np.cumsum(counts[order]) / counts.sum()
+    usual = worst[order][np.searchsorted(passed, 0.99)]
+    return bool(
+        mean <= WANTED["mean"] and usual <= WANTED["at 99 %"] and worst.max() <= WANTED["most"]
+    )

@@ -39,9 +39,11 @@ model draws the normal of a facet whatever of it the light sees, and lets no fac
 (beyond 65 degrees its gloss grows where Cycles' is held down by shadowing). What comes from inside
 is right there too, so nothing in the shader's colours can or should make up for it.
 
-**What is left at 0 and 45 degrees** is largest in type VI (subsurface part .20 where the others
-have .04 to .08): its table lies .03 to .17 from the model between its knots at these states, and
-noise adds its part to colours so dark.
+**What is left at 0 and 45 degrees** is largest in type VI lightly tanned. A shader looks a tan up
+by how much melanin there is and how thick the skin is; how melanin is spread over the layers
+follows, and in this tan it is spread otherwise (.2 CIEDE2000). Between the four knots of the
+spread the table of VI adds .05 (.16 at most). The other types have .03 to .06 from the table's 8
+wavelengths.
 """
 
 EDGE = """\

@@ -9,6 +9,7 @@ from .exposures import (
 )
 from .materials import SKIN_TAN_OT_list_materials
 from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_add
+from .remove import SKIN_TAN_OT_remove
 from .schedule import SKIN_TAN_OT_export_schedule
 from .size import SKIN_TAN_OT_fit_size
 from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
@@ -21,6 +22,7 @@ CLASSES = (
     SKIN_TAN_OT_remove_exposure,
     SKIN_TAN_OT_list_materials,
     SKIN_TAN_OT_apply,
+    SKIN_TAN_OT_remove,
     SKIN_TAN_OT_copy_to_selected,
     SKIN_TAN_OT_reset_timing,
     SKIN_TAN_OT_go_to_darkest_day,

@@ -172,6 +172,13 @@ def set_size(trees: list[Any], obj: bpy.types.Object, scene_unit: float, changes
                 changes.set(node.inputs["Millimetre"], "default_value", 0.001 / scene_unit)
 
 
+def remove_unused_group() -> None:
+    """Remove the group of this file where nothing shows it."""
+    for group in list(bpy.data.node_groups):
+        if DETAIL_KEY in group and is_local(group) and group.users == 0:
+            bpy.data.node_groups.remove(group)
+
+
 def _shared_group() -> bpy.types.NodeTree:
     """The group of this file, which serves all objects: their sizes are inputs."""
     for group in bpy.data.node_groups:

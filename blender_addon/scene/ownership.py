@@ -13,7 +13,7 @@ FORMER = "skin_tan_former"
 """Custom property of a copy for one object, or of what stands in its place: the original."""
 
 MADE = "skin_tan_made"
-"""Custom property of a material that this add-on made."""
+"""Custom property of a material that this add-on made, or of an action: what it made of that."""
 
 
 class Users:
@@ -50,7 +50,10 @@ class Users:
         """Materials, worlds and whatever else uses a node group, maybe through others."""
         roots, seen, waiting = set(), {block}, [block]
         while waiting:
-            for user in self._users.get(waiting.pop(), set()) - seen:
+            used = waiting.pop()
+            for user in self._users.get(used, set()) - seen:
+                if _is_only_former(used, user):
+                    continue
                 seen.add(user)
                 if isinstance(user, bpy.types.NodeTree):
                     waiting.append(user)

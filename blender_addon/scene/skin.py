@@ -1,5 +1,6 @@
 """The tan on an object: its node group, the materials that show it, and copies where others do."""
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
@@ -8,7 +9,7 @@ import bpy
 
 from hylios.errors import InputError
 
-from . import first_version, materials, nodes, recolour, slots
+from . import first_version, materials, nodes, recolour, removal, slots
 from .changes import Changes
 from .ownership import FORMER, MADE, Users, is_local, names, remembered
 from .trees import chain, shaders, tan_groups, tree_of
@@ -74,7 +75,11 @@ class Skin:
             changes.set(settings, "material", ours[0])
         ticked = {self._copies.get(block, block): tans for block, tans in self.ticked.items()}
         slots.remember(self.obj, ticked, changes)
-        return [*said, *(remark for block in ticked for remark in recolour.remarks(block))]
+        unticked = [block for block in self._shown() if not ticked.get(block, True)]
+        if unticked:
+            said += removal.give_back(self.obj, unticked, self.users, changes)
+        remarks = (recolour.remarks(block) for block, tans in ticked.items() if tans)
+        return [*said, *itertools.chain.from_iterable(remarks)]
 
     def _shown(self) -> list[bpy.types.Material]:
         blocks = [*(self._copies.get(block, block) for block in self._chain), *self._made]
@@ -129,15 +134,18 @@ class Skin:
             group for block in self.fresh for path, _, _ in shaders(block) for group in path
         )
         for group in around:
-            is_ours_alone = is_local(group) and group.asset_data is None
-            if not is_ours_alone or not self.users.roots(group) <= in_place:
+            is_free = is_local(group) and not group.asset_data and not self.users.is_former(group)
+            if not is_free or not self.users.roots(group) <= in_place:
                 self._copies[group] = _copy(group)
         return list(around)
 
     def _put_own(self, changes: Changes) -> str:
         assert self.own is not None
         obj, own = self.obj, self.own
-        added = "" if obj.material_slots else materials.add_slot(obj, changes)
+        added = ""
+        if not obj.material_slots:
+            added = materials.add_slot(obj, changes)
+            self._copies.get(own, own)[slots.ADDED] = True
         empty = [slot for slot in obj.material_slots if _is_free(slot.material)]
         active = obj.material_slots[obj.active_material_index or 0]
         counts = slots.faces_of_slots(obj)

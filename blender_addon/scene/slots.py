@@ -41,6 +41,9 @@ COMPOUND = 4
 RELINKED = "skin_tan_relinked"
 """Custom property of a material of one object: its slot was the mesh's and became the object's."""
 
+ADDED = "skin_tan_slot"
+"""Custom property of a material of ours: its slot was added for it, the mesh's only one."""
+
 
 def materials_of(obj: bpy.types.Object) -> list[bpy.types.Material]:
     """Materials in an object's slots, each once."""
@@ -168,3 +171,16 @@ def put(
         if material is not None:
             material[RELINKED] = True
     changes.set(slot, "material", material)
+
+
+def remove_added(obj: bpy.types.Object) -> None:
+    """Remove the only slot of an object's mesh, where it is empty on all objects with the mesh."""
+    mesh: Any = obj.data
+    sharing = [other for other in bpy.data.objects if other.data == mesh]
+    if len(mesh.materials) == 1 and not any(materials_of(other) for other in sharing):
+        # Blender sets the faces' numbers of slots to 0 then.
+        numbers = np.zeros(len(mesh.polygons), np.int32)
+        mesh.polygons.foreach_get("material_index", numbers)
+        mesh.materials.clear()
+        if numbers.any():
+            mesh.polygons.foreach_set("material_index", numbers)

@@ -9,11 +9,15 @@ from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from hylios.errors import InputError
 
 from .changes import Changes
+from .ownership import FORMER, MADE
 from .plan import DAY_PROPERTY
 
 DATA_PATH = f'["{DAY_PROPERTY}"]'
 COORDINATES = ("co", "handle_left", "handle_right")
 """Coordinates of a key and its handles."""
+
+ANIMATION, ACTION, SLOT, BAG, LAYER = "animation", "action", "slot", "channels", "layer"
+"""What was made for the day, as an action says in a custom property."""
 
 SAME = 1e-3
 """Frames and days no further apart are the same."""
@@ -62,12 +66,12 @@ def has_own_keys(obj: bpy.types.Object, keyed: tuple[float, ...]) -> bool:
         First and last day and their frames, as Apply has keyed them last.
     """
     ends = list(zip(keyed[2:], keyed[:2], strict=True))
-    return not all(_is_keyed(curve, ends) for curve in _day_curves(obj)) or _is_retimed(obj)
+    return not all(_is_keyed(curve, ends) for curve in day_curves(obj)) or _is_retimed(obj)
 
 
-def _day_curves(obj: bpy.types.Object) -> Iterator[Any]:
+def day_curves(obj: bpy.types.Object) -> Iterator[Any]:
     """Curves of the day: of the object's action, and of the strips that move it."""
-    for source in (obj.animation_data, *_strips(obj)):
+    for source in (obj.animation_data, *strips(obj)):
         if source is not None and source.action is not None and source.action_slot is not None:
             bag = action_get_channelbag_for_slot(source.action, source.action_slot)
             curve = bag.fcurves.find(DATA_PATH) if bag else None
@@ -75,14 +79,14 @@ def _day_curves(obj: bpy.types.Object) -> Iterator[Any]:
                 yield curve
 
 
-def _strips(obj: bpy.types.Object) -> list[Any]:
+def strips(obj: bpy.types.Object) -> list[Any]:
     tracks: Any = obj.animation_data.nla_tracks if obj.animation_data else ()
     return [strip for track in tracks if not track.mute for strip in track.strips]
 
 
 def _is_retimed(obj: bpy.types.Object) -> bool:
     """Whether a strip with the day shows it at other frames than its keys say."""
-    for strip in _strips(obj):
+    for strip in strips(obj):
         bag = strip.action_slot and action_get_channelbag_for_slot(strip.action, strip.action_slot)
         if bag and bag.fcurves.find(DATA_PATH):
             moved = abs(strip.frame_start - strip.action_frame_start) > SAME
@@ -108,7 +112,7 @@ def _is_keyed(curve: Any, ends: list[tuple[float, float]]) -> bool:
 
 def remove_modifiers(obj: bpy.types.Object) -> None:
     """Remove the modifiers of the day's curves."""
-    for curve in _day_curves(obj):
+    for curve in day_curves(obj):
         for modifier in list(curve.modifiers):
             curve.modifiers.remove(modifier)
 
@@ -122,7 +126,7 @@ def set_first_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
 
 def frame_of_day(obj: bpy.types.Object, scene: bpy.types.Scene, day: float) -> int | None:
     """The frame of the scene that shows a day best, by the object's keys; None without keys."""
-    curve = next(_day_curves(obj), None)
+    curve = next(day_curves(obj), None)
     if curve is None:
         return None
     frames = range(scene.frame_start, scene.frame_end + 1)
@@ -141,9 +145,12 @@ def key_days(
     Earlier keys of the day are replaced; other animation of the object is left alone, and so are
     other objects with the same action: this one gets a copy.
     """
-    action, slot = _own_action(obj, changes)
-    curve, is_new = _curve(action, slot, changes)
-    changes.on_failure(_set_keys, curve, _keys(curve), curve.extrapolation)
+    made = [] if obj.animation_data else [ANIMATION]
+    action, slot = _own_action(obj, changes, made)
+    curve, is_new = _curve(action, slot, changes, made)
+    if made and MADE not in action:
+        changes.set_key(action, MADE, " ".join(made))
+    changes.on_failure(_set_keys, curve, keys_of(curve), curve.extrapolation)
     curve.keyframe_points.clear()
     curve.keyframe_points.add(len(days))
     for key, day, frame in zip(curve.keyframe_points, days, frames, strict=True):
@@ -157,8 +164,8 @@ def key_days(
     if is_new or (animation.action, animation.action_slot) != (action, slot):
         # The assignment has Blender sort out anew what follows what, which takes long in a large
         # scene; without, a strip of the NLA would go on covering a new action.
-        changes.on_failure(_assign, animation, animation.action, animation.action_slot)
-        _assign(animation, action, slot)
+        changes.on_failure(assign, animation, animation.action, animation.action_slot)
+        assign(animation, action, slot)
     action.update_tag()
     obj.update_tag()
 
@@ -178,13 +185,13 @@ def _set_appearance(obj: bpy.types.Object, appearance: dict[str, Any]) -> None:
     cast(Any, obj).id_properties_ui(DAY_PROPERTY).update(**appearance)
 
 
-def _assign(animation: Any, action: bpy.types.Action | None, slot: Any) -> None:
+def assign(animation: Any, action: bpy.types.Action | None, slot: Any) -> None:
     animation.action = action
     if action is not None:
         animation.action_slot = slot
 
 
-def _keys(curve: Any) -> dict[str, list[Any]]:
+def keys_of(curve: Any) -> dict[str, list[Any]]:
     """All that can be set on the keys of a curve, by name."""
     points = curve.keyframe_points
     names = {rna.identifier for rna in bpy.types.Keyframe.bl_rna.properties if not rna.is_readonly}
@@ -211,31 +218,36 @@ def _set_keys(curve: Any, keys: dict[str, list[Any]], extrapolation: str) -> Non
 
 
 def _own_action(
-    obj: bpy.types.Object, changes: Changes
+    obj: bpy.types.Object, changes: Changes, made: list[str]
 ) -> tuple[bpy.types.Action, bpy.types.ActionSlot]:
-    """An action and a slot of it that move this object alone."""
+    """An action and a slot of it that move this object alone; adds to what was made for that."""
     animation = obj.animation_data
     action = animation.action if animation else None
     slot = animation.action_slot if animation else None
     if action is None:
         action = bpy.data.actions.new(f"{obj.name}Action")
+        made.append(ACTION)
         slot = None
     elif action.library or (slot is not None and any(user != obj for user in slot.users())):
         identifier = slot and slot.identifier
-        action = action.copy()
+        former, action = action, action.copy()
+        if FORMER not in action:
+            action[FORMER] = former
         slot = action.slots[identifier] if identifier else None
     if slot is None:
+        made.append(SLOT)
         changes.may_add_to(action.slots)
         slot = action.slots.new(id_type="OBJECT", name=obj.name)
     return action, slot
 
 
 def _curve(
-    action: bpy.types.Action, slot: bpy.types.ActionSlot, changes: Changes
+    action: bpy.types.Action, slot: bpy.types.ActionSlot, changes: Changes, made: list[str]
 ) -> tuple[bpy.types.FCurve, bool]:
     """The curve of the day, and whether it is new."""
     bag = action_get_channelbag_for_slot(action, slot)
     if bag is None:
+        made += [BAG] if action.layers else [BAG, LAYER]
         changes.may_add_to(action.layers)
         layer = action.layers[0] if action.layers else action.layers.new("Layer")
         changes.may_add_to(layer.strips)

@@ -213,7 +213,7 @@ def hide(group: Any, trees: Iterable[Any], changes: Changes) -> None:
 
 def remove_unused_images(changes: Changes) -> None:
     """Remove images of views that nothing shows any more, when all else is done."""
-    changes.at_the_end(_remove_unused_images)
+    changes.at_the_end(remove_unused)
 
 
 def _unit_vector(channel: int) -> tuple[float, ...]:
@@ -248,7 +248,8 @@ def _take_out(group: Any) -> None:
     group.pop(VIEW_KEY, None)
 
 
-def _remove_unused_images() -> None:
+def remove_unused() -> None:
+    """Remove images of views that nothing shows any more."""
     unused: Iterable[bpy.types.Image] = [
         image
         for image in bpy.data.images

@@ -51,6 +51,7 @@ class _Main:
         if is_changed(obj, current_scene(context)) and not settings.live:
             layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
         draw_size(layout, obj, current_scene(context))
+        layout.operator("skin_tan.remove", icon="X")
 
 
 class _Section:

@@ -237,6 +237,6 @@ KINDS = (
 
 def wear(obj, materials) -> None:
     """A slot and a face for each of some materials."""
-    for number, material in enumerate(materials):
+    for number, material in enumerate(materials):  # None is an empty slot
         obj.data.materials.append(material)
         obj.data.polygons[number].material_index = number

@@ -14,6 +14,7 @@ SUBJECTS = {
     "applied.py": {"scene", "props"},
     "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
     "apply.py": {"applied", "timing", "views", "model", "scene", "props", "hylios.errors"},
+    "removal.py": {"apply", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "size.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
     "package.py": {"hylios.errors", "hylios.files"},
@@ -21,7 +22,7 @@ SUBJECTS = {
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
     "ops": {
-        *("ops", "apply", "timing", "views", "size", "props", "model"),
+        *("ops", "apply", "removal", "timing", "views", "size", "props", "model"),
         *("hylios.errors", "hylios.files"),
     },
     "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},

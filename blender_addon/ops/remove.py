@@ -1,0 +1,41 @@
+"""The button that takes a tan off."""
+
+import bpy
+from bpy.props import BoolProperty
+
+from hylios.errors import InputError
+
+from ..removal import has_tan, remove_tan
+from .active import active_mesh, active_object
+
+
+class SKIN_TAN_OT_remove(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.remove"
+    bl_label = "Remove Tan"
+    bl_description = (
+        "Take the tan off the active object: materials, slots and animation as they were before "
+        "Apply, with your own edits since. Settings and masks stay"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    keep_timing: BoolProperty(
+        name="Keep Timing",
+        description="Leave the keys of the day on the object",
+    )
+
+    @classmethod
+    def poll(cls, context):
+        obj = active_mesh(context)
+        if obj is None or not has_tan(obj):
+            cls.poll_message_set("The active object has no tan")
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            message = remove_tan(active_object(context), keep_timing=self.keep_timing)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, message)
+        return {"FINISHED"}

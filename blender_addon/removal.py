@@ -1,0 +1,47 @@
+"""Remove Tan: an object's materials, slots and animation as they were before Apply."""
+
+import bpy
+
+from hylios.errors import InputError
+
+from .apply import tannable
+from .props import settings_of
+from .scene import slots
+from .scene.changes import Changes
+from .scene.day_removal import remove_day
+from .scene.plan import DAY_PROPERTY
+from .scene.removal import take_off
+
+
+def has_tan(obj: bpy.types.Object) -> bool:
+    """Whether an object has been given a tan."""
+    return settings_of(obj).group is not None or DAY_PROPERTY in obj
+
+
+def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> str:
+    """Take an object's tan off, and return a sentence on what was done.
+
+    Its settings and masks stay, so Apply gives the same tan again. No other object changes its
+    look. Nothing in the file is changed where an error is raised.
+
+    Parameters
+    ----------
+    keep_timing : bool
+        Whether the keys of the day stay.
+
+    Raises
+    ------
+    InputError
+        If the object has no tan, or cannot be changed.
+    """
+    obj = tannable(obj)
+    if not has_tan(obj) and not any(slots.shown_groups(obj)):
+        raise InputError(f"{obj.name!r} has no tan; Apply Tan gives it one.")
+    settings = settings_of(obj)
+    with Changes() as changes:
+        said = take_off(obj, changes)
+        if not keep_timing:
+            said += remove_day(obj, changes)
+            changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))
+        changes.set(settings, "applied", "")
+    return " ".join([f"Removed the tan of {obj.name!r}.", *said])

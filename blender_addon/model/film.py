@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hylios.adding.surface import fresnel
 from hylios.tissue.liquids import LIQUIDS
@@ -69,9 +70,14 @@ def film_of(liquid: str, roughness: float) -> Film:
         roughness=ROUGHNESS[liquid],
         relief=max(0.0, 1.0 - thickness / DEEP_MILLIMETRES),
         more_through=1.0 / _dry_over_wet(index, roughness, USUAL_ANGLE) - 1.0,
-        start=tuple((ratio * start - 1.0).tolist()),
-        slope=tuple((ratio * slope).tolist()),
+        start=_channels(ratio * start - 1.0),
+        slope=_channels(ratio * slope),
     )
+
+
+def _channels(values: NDArray[np.float64]) -> tuple[float, float, float]:
+    red, green, blue = values.tolist()
+    return red, green, blue
 
 
 def _dry_over_wet(index: float, roughness: float, angle: float) -> float:
@@ -83,7 +89,7 @@ def _dry_over_wet(index: float, roughness: float, angle: float) -> float:
 
 
 @functools.cache
-def _fits() -> dict[str, np.ndarray]:
+def _fits() -> dict[str, NDArray[np.float64]]:
     """Start and slope (2, 3) of the colour by liquid, fitted by examples/truth/film_fit.py."""
     text = Path(__file__).with_name("film.csv").read_text(encoding="utf-8")
     _, *lines = [line.split(",") for line in text.splitlines() if not line.startswith("#")]

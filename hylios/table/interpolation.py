@@ -34,10 +34,12 @@ def interpolate(
     InputError
         If there is no such interpolation.
     """
-    if kind not in INTERPOLATIONS:
-        raise InputError(f"interpolation is {kind!r}; allowed are {', '.join(INTERPOLATIONS)}.")
-    nodes = _nodes(kind, knots, values)
-    result = np.empty((len(positions), values.shape[-1]))
+    return between(knots, nodes(kind, knots, values), positions)
+
+
+def between(knots: tuple[np.ndarray, ...], nodes: np.ndarray, positions: np.ndarray) -> np.ndarray:
+    """As `interpolate`, with what `nodes` has made of the values."""
+    result = np.empty((len(positions), nodes.shape[len(knots)]))
     for start in range(0, len(positions), CHUNK):
         part = slice(start, start + CHUNK)
         result[part] = _interpolated(knots, nodes, positions[part])
@@ -81,19 +83,22 @@ def _end_slope(near, far, secant: np.ndarray, next_secant: np.ndarray) -> np.nda
     return np.where(parabola * secant > 0.0, cut, 0.0)
 
 
-def _nodes(kind: str, knots: tuple[np.ndarray, ...], values: np.ndarray) -> np.ndarray:
+def nodes(kind: str, knots: tuple[np.ndarray, ...], values: np.ndarray) -> np.ndarray:
     """Values at the knots, and for cubics their slopes, shape (*knots, C, *kinds of number).
 
-    An axis has the number alone, or the number and its slope along that axis.
+    An axis has the number alone, or the number and its slope along that axis. Parameters and
+    errors as in `interpolate`.
     """
-    nodes = values
+    if kind not in INTERPOLATIONS:
+        raise InputError(f"interpolation is {kind!r}; allowed are {', '.join(INTERPOLATIONS)}.")
+    result = values
     for axis, own in enumerate(knots):
-        kinds = [nodes]
+        kinds = [result]
         if kind == "pchip" and len(own) > 1:
-            along = np.moveaxis(nodes, axis, 0)
+            along = np.moveaxis(result, axis, 0)
             kinds.append(np.moveaxis(slopes(own, along), 0, axis))
-        nodes = np.stack(kinds, axis=-1)
-    return nodes
+        result = np.stack(kinds, axis=-1)
+    return result
 
 
 def _interpolated(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.table.axes import Axes, LookAxes
-from hylios.table.interpolation import interpolate
+from hylios.table.interpolation import between, nodes
 
 
 @dataclass(frozen=True)
@@ -60,15 +61,24 @@ class SkinTable:
             if name not in self.planes:
                 raise InputError(f"the table has no plane {name}; it has {', '.join(self.planes)}.")
         coordinates = self.axes.coordinates(as_numbers("tanning states", states))
-        joined = np.concatenate([self.planes[name] for name in wanted], axis=-1)
-        numbers = interpolate(
-            self.interpolation,
+        numbers = between(
             self.axes.knots,
-            joined,
+            self._nodes_of(wanted),
             coordinates.reshape(-1, coordinates.shape[-1]),
         ).reshape(*coordinates.shape[:-1], -1)
         ends = np.cumsum([self.planes[name].shape[-1] for name in wanted])
         return dict(zip(wanted, np.split(numbers, ends[:-1], axis=-1), strict=True))
+
+    def _nodes_of(self, names: tuple[str, ...]) -> np.ndarray:
+        """What interpolation needs of some planes side by side; made once."""
+        if names not in self._kept:
+            joined = np.concatenate([self.planes[name] for name in names], axis=-1)
+            self._kept[names] = nodes(self.interpolation, self.axes.knots, joined)
+        return self._kept[names]
+
+    @cached_property
+    def _kept(self) -> dict[tuple[str, ...], np.ndarray]:
+        return {}
 
     def holds(self, states: ArrayLike) -> NDArray[np.bool_]:
         """Whether the table says something of tanning states (..., 4) or (..., 5), bool (...).

@@ -31,7 +31,7 @@ def body_unit(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
 def length(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
     """The longest side of a body in metres, were it life-size."""
     corners = np.array([tuple(corner) for corner in obj.bound_box])
-    sides = np.ptp(corners, axis=0) * np.abs(obj.matrix_world.to_scale())
+    sides = np.ptp(corners, axis=0) * np.abs(np.array(obj.matrix_world.to_scale()))
     return body_unit(obj, scene) * float(sides.max())
 
 

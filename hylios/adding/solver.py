@@ -173,6 +173,8 @@ def _shares(stacks: Stack, angle: float | Sequence[float], nodes: int, film: Fil
     """Surface, subsurface and transmitted shares (3, F, A, S) of stacks whose numbers are (S,)."""
     films, angles = _films(film), tuple(np.radians(np.atleast_1d(angle)).tolist())
     shares = np.empty((3, len(films), len(angles), np.size(stacks.roughness)))
+    if not shares.size:
+        return shares  # of no wavelengths, as a table without bands has them
     for shared, (members, constants, which) in groups(stacks, nodes, films).items():
         parts = [optics(own, shared, angles) for own in constants]
         for first in range(0, len(members), TOGETHER):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hylios.adding import colours, spectrum
+from hylios.adding import colours, spectra, spectrum
 from hylios.errors import InputError
 from hylios.lab import colour
 from hylios.skin import Skin
@@ -78,3 +78,8 @@ def test_skin_without_absorbers_is_white():
 def test_bad_input_is_named(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         colours(S3, **{"states": STATES, **arguments})
+
+
+def test_no_wavelengths_are_no_numbers():
+    """As a table without bands asks for them."""
+    assert spectra([SPECIMENS["S3"]] * 2, (), angle=(8.0, 45.0)).total.shape == (2, 2, 0)

@@ -1,11 +1,13 @@
 """Whether what an artist has set is what Apply has last shown."""
 
+import hashlib
+
 import bpy
 
 from .props import SkinTanSettings, settings_of
 from .scene.changes import Changes
 
-NOTES = frozenset("rna_type name group material keyed applied exposure_index live".split())
+NOTES = frozenset("rna_type name group material keyed applied undone exposure_index live".split())
 """Properties of an object that do not change its look."""
 
 SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())
@@ -26,11 +28,16 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     return SEPARATOR.join(map(repr, (schedule, (rest, frames, units.system, units.scale_length))))
 
 
-def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None:
-    """Remember that an object's look is that of its settings."""
+def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> str:
+    """Remember that an object's look is that of its settings, and return their digest."""
     text = text_of(obj, scene)
     if settings_of(obj).applied != text:
         changes.set(settings_of(obj), "applied", text)
+    return digest(text)
+
+
+def digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:

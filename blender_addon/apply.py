@@ -72,7 +72,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         in_view = keep_view(skin.group, skin.trees(), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
-        applied.note(obj, scene, changes)
+        source = applied.note(obj, scene, changes)
+        images.note_content((sampled.states, sampled.places), source)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += mask_values.remarks(obj, mask, shown)

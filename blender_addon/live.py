@@ -2,9 +2,12 @@
 
 A handler notices that settings differ from those that a tan shows (`applied`) and registers a
 timer; so nothing is changed while Blender evaluates or draws. A new schedule only gets new pixels
-in the images of the history, fast and roughly; when nothing has changed for a while, and before the
-file is saved, Apply makes it exact and lasting. Undo and redo bring settings and what was applied
-back together, so the same comparison finds what they left stale.
+in the images of the history, fast and roughly at first; after a rest, and before the file is saved,
+they are made exact and lasting. All other changes are applied as the button does.
+
+Blender's undo takes what changed since its last step for unchanged. So pixels change in place, and
+Apply is followed by a step of the undo history. After undo and redo pixels are compared with the
+settings; what else differs waits for Apply, since a new step would cut the way back.
 """
 
 from typing import Any, cast
@@ -16,7 +19,7 @@ from hylios.errors import InputError
 
 from . import applied
 from .apply import apply_tan, tannable
-from .model.history import DRAG
+from .model.history import DRAG, FULL, Precision
 from .model.tan import history_of
 from .props import settings_of
 from .scene import images, nodes
@@ -30,68 +33,118 @@ BUSY_SECONDS = 0.2
 
 
 @persistent
-def notice(scene: bpy.types.Scene, depsgraph: Any = None) -> None:
+def notice(scene: bpy.types.Scene, depsgraph: Any) -> None:
     """Handler: see to objects whose settings have just changed."""
-    if depsgraph is None:
-        objects = list(scene.objects)
-    else:
-        updated = (item.id.original for item in depsgraph.updates)
-        objects = [block for block in updated if isinstance(block, bpy.types.Object)]
-    if any(_is_stale(obj, scene) for obj in objects) and not bpy.app.background:
+    updated = (item.id.original for item in depsgraph.updates)
+    objects = [block for block in updated if isinstance(block, bpy.types.Object)]
+    if any(_is_stale(obj, scene) for obj in objects):
+        _wait(show_changes, 0.0)
+
+
+@persistent
+def after_undo(*_: Any) -> None:
+    """Handler: pixels are those of the settings to which an undo or a redo has led."""
+    scene = _scene()
+    for obj in scene.objects:
+        settings = settings_of(obj)
+        if settings.group is not None and settings.live and settings.applied:
+            _restore(obj, scene)
+    _wait(make_exact, REST_SECONDS)
+
+
+@persistent
+def after_loading(*_: Any) -> None:
+    """Handler: a file that Blender saved by itself may hold what had not been made exact."""
+    if _stale(_scene()):
         _wait(show_changes, 0.0)
 
 
 @persistent
 def before_saving(*_: Any) -> None:
-    """Handler: nothing that only shows until the file is closed is saved."""
-    make_exact()
+    """Handler: nothing is saved that only shows until the file is closed."""
+    if not bpy.app.background:
+        make_exact()
 
 
 def show_changes() -> float | None:
-    """Timer: show what has changed, roughly; the seconds until it must be called again."""
+    """Timer: show what has changed; the seconds until it must be called again."""
     if bpy.app.is_job_running("RENDER"):
         return BUSY_SECONDS
     scene = _scene()
-    for obj in _stale(scene):
-        try:
-            show(obj, scene)
-        except InputError:
-            pass  # Apply says why, when the artist wants to know
+    _show(_stale(scene), scene, DRAG)
     _wait(make_exact, REST_SECONDS)
     return None
 
 
-def show(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
-    """Show an object's settings: a new schedule roughly, all else as Apply does.
+def make_exact() -> float | None:
+    """Timer: make exact and lasting what has changed; the seconds until it must be called again."""
+    if bpy.app.is_job_running("RENDER"):
+        return BUSY_SECONDS
+    scene = _scene()
+    _show(_stale(scene), scene, FULL)
+    return None
+
+
+def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Precision) -> None:
+    """Show objects' settings: those of one whose Apply would refuse stay as they are."""
+    has_applied = False
+    for obj in objects:
+        try:
+            if applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
+                show_schedule(obj, scene, precision)
+            else:
+                apply_tan(obj, scene)
+                has_applied = True
+        except InputError:
+            pass  # Apply says why, when the artist wants to know
+    if has_applied:
+        bpy.ops.ed.undo_push(message="Apply Tan")
+
+
+def show_schedule(
+    obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precision = DRAG
+) -> None:
+    """Put an object's schedule into the images of its history; lasting if it is exact.
 
     Raises
     ------
     InputError
         If Apply would refuse.
     """
-    group = settings_of(obj).group
-    shown = None if Users().others(group, obj) else nodes.own_history(group)
-    if shown is None or not applied.is_only_schedule_changed(obj, scene):
-        apply_tan(obj, scene)
-        return
     tannable(obj)
-    history = history_of(settings_of(obj).values(), DRAG)
-    states, places = shown
-    images.swap_pixels(states, history.coordinates)
-    images.swap_pixels(places, history.places)
+    settings = settings_of(obj)
+    history = history_of(settings.values(), precision)
+    text = applied.text_of(obj, scene)
+    pairs = zip(_history(obj), (history.coordinates, history.places), strict=True)
+    for image, values in pairs:
+        images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
+    if precision is FULL:
+        settings.applied = text
 
 
-def make_exact() -> float | None:
-    """Timer: apply what has changed; the seconds until it must be called again."""
-    if bpy.app.is_job_running("RENDER"):
-        return BUSY_SECONDS
-    scene = _scene()
-    for obj in _stale(scene):
+def _restore(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
+    settings = settings_of(obj)
+    text = applied.text_of(obj, scene)
+    is_schedule = text == settings.applied or applied.is_only_schedule_changed(obj, scene)
+    if not is_schedule or not _is_alone(obj):
+        settings.undone = text
+        return
+    restored = [images.restore(image, applied.digest(text)) for image in _history(obj)]
+    if not all(restored):
         try:
-            apply_tan(obj, scene)
+            show_schedule(obj, scene, FULL)
         except InputError:
-            pass
-    return None
+            settings.undone = text
+
+
+def _is_alone(obj: bpy.types.Object) -> bool:
+    """Whether an object's history is shown by it alone, in the images that Apply made."""
+    group = settings_of(obj).group
+    return nodes.own_history(group) is not None and not Users().others(group, obj)
+
+
+def _history(obj: bpy.types.Object) -> tuple[bpy.types.Image, bpy.types.Image]:
+    return cast(Any, nodes.own_history(settings_of(obj).group))
 
 
 def _scene() -> bpy.types.Scene:
@@ -104,11 +157,15 @@ def _stale(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 def _is_stale(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     settings = settings_of(obj)
-    return bool(settings.group) and settings.live and applied.is_changed(obj, scene)
+    if not (settings.group and settings.live and applied.is_changed(obj, scene)):
+        return False
+    return not settings.undone or settings.undone != applied.text_of(obj, scene)
 
 
 def _wait(timer: Any, seconds: float) -> None:
-    """Have a timer called in so many seconds, not before."""
+    """Have a timer called in so many seconds, not before; without a window nothing calls it."""
+    if bpy.app.background:
+        return
     if bpy.app.timers.is_registered(timer):
         bpy.app.timers.unregister(timer)
     bpy.app.timers.register(timer, first_interval=seconds)
@@ -116,8 +173,9 @@ def _wait(timer: Any, seconds: float) -> None:
 
 HANDLERS = (
     ("depsgraph_update_post", notice),
-    ("undo_post", notice),
-    ("redo_post", notice),
+    ("undo_post", after_undo),
+    ("redo_post", after_undo),
+    ("load_post", after_loading),
     ("save_pre", before_saving),
 )
 

@@ -25,7 +25,7 @@ FIRST_EXPOSURE = "Day in the sun"
 FIRST_AMOUNT = 4.0
 """Tanning doses of the exposure that an object without any is given: a plain tan on every skin."""
 
-OF_THE_OBJECT = ("group", "material", "materials", "keyed", "applied")
+OF_THE_OBJECT = ("group", "material", "materials", "keyed", "applied", "undone")
 """What Apply notes of an object, which is no setting."""
 
 

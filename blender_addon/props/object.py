@@ -240,6 +240,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         description="The settings that the tan shows, as Apply noted them",
         options={"HIDDEN"},
     )
+    undone: StringProperty(
+        name="Undone",
+        description="Settings to which an undo led back, and which wait for Apply",
+        options={"HIDDEN"},
+    )
     live: BoolProperty(
         name="Live",
         description="Show every change at once. Without it, changes wait for Apply Tan",

@@ -2,7 +2,7 @@
 
 import hashlib
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 from typing import Any, cast
 
@@ -34,6 +34,10 @@ CONTENT, PACKED = "skin_tan_content", "skin_tan_packed"
 """Custom properties of an image that objects share: digests of its numbers and of its file."""
 
 
+SHOWN, LASTING = "skin_tan_shown", "skin_tan_lasting"
+"""Custom properties of an image of one object: what its pixels and its packed file come from."""
+
+
 def stem(name: str) -> str:
     """A name without the number that Blender puts behind one that is taken."""
     return re.sub(r"\.\d{3,}$", "", name)
@@ -52,37 +56,69 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     InputError
         If Blender's colour management has no space that fits.
     """
-    rows, columns, _ = values.shape
-    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
+    image = _float_image(name, values, is_colour=is_colour)
     image[MARK] = image.name
-    # Setting it after the pixels would discard them.
-    set_colour_space(image, is_colour=is_colour)
-    pixels = np.ones((rows, columns, 4), dtype=np.float32)
-    pixels[..., :3] = values
-    cast(Any, image.pixels).foreach_set(pixels.ravel())
-    image.update()
     image.pack()
-    if not is_colour:
-        # EEVEE would keep 11 bits, too few for a place between two texels.
-        cast(Any, image).use_half_precision = False
     # Blender takes pixels that are set for numbers of its working space; those that it reads from
     # the packed file it converts.
     image.buffers_free()
     return image
 
 
-def swap_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
-    """Show other values (rows, columns, 3) in an image, until the file is closed or undone.
+def _float_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:
+    rows, columns, _ = values.shape
+    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
+    # Setting it after the pixels would discard them.
+    set_colour_space(image, is_colour=is_colour)
+    _set_pixels(image, values)
+    if not is_colour:
+        # EEVEE would keep 11 bits, too few for a place between two texels.
+        cast(Any, image).use_half_precision = False
+    return image
 
-    They are not packed: that takes longer than to compute them.
+
+def _set_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
+    pixels = np.ones((*values.shape[:2], 4), dtype=np.float32)
+    pixels[..., :3] = values
+    cast(Any, image.pixels).foreach_set(pixels.ravel())
+    image.update()
+
+
+def swap_pixels(image: bpy.types.Image, values: np.ndarray, content: str, *, pack: bool) -> None:
+    """Put other numbers (rows, columns, 3) into an image that a file keeps.
+
+    A new image in place of it would be no more than a pointer into nothing after an undo, unless a
+    step of the undo history comes between: Blender keeps what it takes for unchanged.
+
+    Parameters
+    ----------
+    content : str
+        What the numbers come from, for `restore`.
+    pack : bool
+        Whether they last beyond the closing of the file; that takes longer.
     """
     rows, columns, _ = values.shape
     if tuple(image.size) != (columns, rows):
         image.scale(columns, rows)
-    pixels = np.ones((rows, columns, 4), dtype=np.float32)
-    pixels[..., :3] = values
-    cast(Any, image.pixels).foreach_set(pixels.ravel())
-    image.update()
+    _set_pixels(image, values)
+    image[SHOWN] = content
+    if pack:
+        image.pack()
+        image[LASTING] = content
+
+
+def note_content(fresh: Iterable[bpy.types.Image], content: str) -> None:
+    """Note in new packed images what they come from."""
+    for image in fresh:
+        image[SHOWN] = image[LASTING] = content
+
+
+def restore(image: bpy.types.Image, content: str) -> bool:
+    """Have an image show what it holds after an undo, if that comes from `content`."""
+    if image.get(LASTING) != content:
+        return False
+    image.reload()
+    return True
 
 
 def shared_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:

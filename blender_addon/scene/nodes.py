@@ -159,10 +159,10 @@ def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
 
 
 def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, bpy.types.Image] | None:
-    """Images of states and of places that a group shows, where Apply made both for it alone."""
+    """Images of states and of places that a group shows, where both were made for it."""
     shown = {node.image for role in ("states", "rows", "columns") for node in of_role(group, role)}
     states, places = (group.get(IMAGE_KEYS[role]) for role in ("states", "columns"))
-    if None in (states, places) or shown != {states, places}:
+    if states is None or places is None or shown != {states, places}:
         return None
     return states, places
 

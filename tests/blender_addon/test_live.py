@@ -115,7 +115,7 @@ def test_images_of_the_artist_s_own_are_left(body):
 def test_what_is_saved_is_exact_and_lasts(body, tmp_path):
     body.skin_tan.exposures[0].dose = 8.0
     live.show_changes()
-    live.before_saving()
+    live.make_exact()
     path = str(tmp_path / "saved.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     shown = states(body)

@@ -1,0 +1,111 @@
+"""Live under many changes in any order, with undo, redo, saving and loading between them."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import apply, of_role, pixels, tan_object
+
+from blender_addon import applied, live
+from blender_addon.model.tan import history_of, look_of
+
+FEW, MANY = 60, 500
+SEEDS = (1, 2, 3)
+
+
+def body():
+    return bpy.data.objects["Body"]
+
+
+class Artist:
+    """Does one thing after another to an object with a tan."""
+
+    def __init__(self, seed: int, folder):
+        self.random = np.random.default_rng(seed)
+        self.path = str(folder / "body.blend")
+
+    def change(self) -> None:
+        settings = body().skin_tan
+        kind = self.random.integers(6)
+        if kind == 0:
+            settings.last_day = float(self.random.uniform(8.0, 40.0))
+        elif kind == 1 and len(settings.exposures) < 5:
+            bpy.ops.skin_tan.add_exposure()
+        elif kind == 2 and len(settings.exposures) > 1:
+            bpy.ops.skin_tan.remove_exposure(index=0)
+        elif kind == 3:
+            exposure = settings.exposures[0]
+            exposure.enabled = not exposure.enabled
+        else:
+            settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
+
+    def push(self) -> None:
+        bpy.ops.ed.undo_push(message="change")
+
+    def undo(self) -> None:
+        if bpy.ops.ed.undo.poll():
+            bpy.ops.ed.undo()
+
+    def redo(self) -> None:
+        if bpy.ops.ed.redo.poll():
+            bpy.ops.ed.redo()
+
+    def save_and_load(self) -> None:
+        live.make_exact()
+        bpy.ops.wm.save_as_mainfile(filepath=self.path)
+        bpy.ops.wm.open_mainfile(filepath=self.path)
+
+    def step(self) -> None:
+        kinds = [self.change, self.push, self.undo, self.redo, live.show_changes, live.make_exact]
+        weights = [0.4, 0.15, 0.12, 0.08, 0.2, 0.05]
+        if self.random.random() < 0.03:
+            self.save_and_load()
+        else:
+            self.random.choice(np.array(kinds, object), p=weights)()
+
+
+def settled() -> None:
+    """After a rest the tan is that of the settings, and no image is lost."""
+    live.show_changes()
+    live.make_exact()
+    obj, scene = body(), bpy.context.scene
+    if obj.skin_tan.undone == applied.text_of(obj, scene):
+        apply(obj)  # an undo has led back between a setting and its Apply
+        bpy.ops.ed.undo_push(message="applied")
+    assert not applied.is_changed(obj, scene)
+    values = obj.skin_tan.values()
+    history, look = history_of(values), look_of(values)
+    np.testing.assert_array_equal(
+        pixels(of_role(obj, "states").image)[..., :3], history.coordinates
+    )
+    np.testing.assert_array_equal(
+        pixels(of_role(obj, "rows").image)[..., :2], history.places[..., :2]
+    )
+    np.testing.assert_allclose(pixels(of_role(obj, "colour").image)[..., :3], look.colour, 1e-6)
+    for image in bpy.data.images:
+        assert image.packed_file is not None and image.size[0] > 0
+
+
+def run(seed: int, folder, steps: int) -> None:
+    artist = Artist(seed, folder)
+    for number in range(steps):
+        artist.step()
+        if number % 20 == 19:
+            settled()
+    settled()
+
+
+@pytest.fixture
+def tanned(table_path):
+    apply(tan_object(table_path))
+    bpy.ops.ed.undo_push(message="applied")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_few_changes(tanned, tmp_path, seed):
+    run(seed, tmp_path, FEW)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
+def test_many_changes(tanned, tmp_path, seed):
+    run(seed, tmp_path, MANY)

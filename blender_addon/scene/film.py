@@ -221,16 +221,19 @@ def _values(film: Film | None, level: float) -> dict[str, dict[str | int, Any]]:
     Beneath the film light meets the skin more steeply than it met the film, so that the skin's own
     gloss is much the same at all angles: an index that falls to 1 with the angle of view does that.
     """
-    bare = {"film": {1: float(film is not None)}, "film_level": {2: (level,) * 3}}
-    if film is None:
-        return bare | {PREFIX + "share": {1: 0.0}}
-    beneath = INDEX / film.index
-    return bare | {
-        "film_colour": {
-            1: tuple(level * value for value in film.slope),
-            2: tuple(level * value for value in film.start),
-        },
-        "film_more": {1: film.more_through},
-        "film_index": {1: 1.0 - beneath, 2: beneath - INDEX},
-        "film_relief": {"Factor_Float": film.relief},
+    values: dict[str, dict[str | int, Any]] = {
+        "film": {1: float(film is not None)},
+        "film_level": {2: (level,) * 3},
     }
+    if film is None:
+        values[PREFIX + "share"] = {1: 0.0}
+        return values
+    beneath = INDEX / film.index
+    values["film_colour"] = {
+        1: tuple(level * value for value in film.slope),
+        2: tuple(level * value for value in film.start),
+    }
+    values["film_more"] = {1: film.more_through}
+    values["film_index"] = {1: 1.0 - beneath, 2: beneath - INDEX}
+    values["film_relief"] = {"Factor_Float": film.relief}
+    return values

@@ -4,7 +4,7 @@ The shader reads a copy of the vertex group (`scene.vertex_groups`). A handler n
 a timer brings the copy up to date when the brush rests.
 """
 
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bpy.app.handlers import persistent
@@ -31,7 +31,7 @@ def show_strokes() -> float | None:
     """Timer: bring the copies of painted groups up to date; the seconds until the next call."""
     if bpy.app.is_job_running("RENDER"):
         return REST_SECONDS
-    for obj in filter(_is_painted, bpy.context.scene.objects):
+    for obj in filter(_is_painted, cast(Any, bpy.context).scene.objects):
         refresh(obj, mask_names(obj))
     return None
 

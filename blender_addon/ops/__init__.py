@@ -7,6 +7,7 @@ from .exposures import (
     SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
 )
+from .masks import SKIN_TAN_OT_mask_from_clothes, SKIN_TAN_OT_paint_mask
 from .materials import SKIN_TAN_OT_list_materials
 from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_add
 from .remove import SKIN_TAN_OT_remove
@@ -21,6 +22,8 @@ CLASSES = (
     SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
     SKIN_TAN_OT_list_materials,
+    SKIN_TAN_OT_paint_mask,
+    SKIN_TAN_OT_mask_from_clothes,
     SKIN_TAN_OT_apply,
     SKIN_TAN_OT_remove,
     SKIN_TAN_OT_copy_to_selected,

@@ -21,6 +21,7 @@ def draw_object_mask(
         layout.prop(settings, "mask_attribute", text="", icon="MOD_MASK")
     else:
         layout.prop(settings.mask, "source", text="", icon="MOD_MASK")
+    _draw_makers(layout, "OBJECT")
     _draw_reading(layout, obj, settings.mask, settings.object_mask(), context, BARE)
 
 
@@ -31,9 +32,19 @@ def draw_mask(
     context: bpy.types.Context,
     without: str = BARE,
 ) -> None:
-    """A mask of one exposure or of the film, and what it means to have none."""
+    """A mask of the selected exposure or of the film, and what it means to have none."""
     layout.prop(settings, "source", text="", icon="MOD_MASK")
+    if isinstance(settings, SkinTanMask):
+        _draw_makers(layout, "EXPOSURE")
     _draw_reading(layout, obj, settings, masks.Mask.of(settings), context, without)
+
+
+def _draw_makers(layout: bpy.types.UILayout, target: str) -> None:
+    """The buttons that make a mask."""
+    row: Any = layout.row(align=True)
+    for name, icon in (("paint_mask", "BRUSH_DATA"), ("mask_from_clothes", "MATCLOTH")):
+        button = row.operator(f"skin_tan.{name}", icon=icon)
+        button.target = target
 
 
 def _draw_reading(

@@ -10,6 +10,7 @@ SUBJECTS = {
     "__init__.py": {"registration"},
     "registration.py": {"live", "ops", "painting", "props", "ui"},
     "painting.py": {"scene"},
+    "masking.py": {"scene", "props", "hylios.errors"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
     "applied.py": {"scene", "props"},
     "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
@@ -22,7 +23,7 @@ SUBJECTS = {
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
     "ops": {
-        *("ops", "apply", "removal", "timing", "views", "size", "props", "model"),
+        *("ops", "apply", "removal", "masking", "timing", "views", "size", "props", "model"),
         *("hylios.errors", "hylios.files"),
     },
     "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},

@@ -1,0 +1,168 @@
+"""Making masks for an object, for a brush or from clothes, and setting them."""
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import Any, cast
+
+import bpy
+import numpy as np
+
+from hylios.errors import InputError
+
+from .props import SkinTanMask, settings_of
+from .scene import clothes, mask_colours, mask_values, masks, posed, vertex_groups
+from .scene.changes import Changes
+from .scene.ownership import names
+from .scene.size import body_unit
+
+
+@dataclass(frozen=True)
+class ClothesRequest:
+    """What From Clothes is to do.
+
+    Attributes
+    ----------
+    garments : tuple of Object
+    name : str
+        Of a new mask.
+    reach, inside, softness : float
+        In millimetres: as in `scene.clothes.Reach`.
+    """
+
+    garments: tuple[bpy.types.Object, ...]
+    name: str = "Clothes Mask"
+    reach: float = 30.0
+    inside: float = 5.0
+    softness: float = 4.0
+
+
+def mask_for_brush(
+    obj: bpy.types.Object, settings: SkinTanMask, name: str, domain: str
+) -> tuple[str, str]:
+    """Have a brush paint on a mask: on the one there is, or on a new one that is all bare.
+
+    Numbers for which Blender has no brush are copied into a new mask.
+
+    Returns
+    -------
+    tuple of str
+        COLOUR, GROUP or IMAGE, which says with what brush, and a sentence.
+
+    Raises
+    ------
+    InputError
+        If the mesh cannot be painted on.
+    """
+    mesh = cast(bpy.types.Mesh, obj.data)
+    if obj.mode == "EDIT":
+        raise InputError(f"{obj.name!r} is in Edit Mode; leave Edit Mode (Tab).")
+    if not mesh.polygons:
+        raise InputError(f"{obj.name!r} has no faces, so there is nothing to paint on.")
+    mask = _mask(obj, settings)
+    source = masks.source_of(obj, mask, masks.current_depsgraph())
+    if source is None or not mask_colours.is_paintable(source):
+        kind = source.kind if source else ""
+        if source is not None and kind == "GROUP":
+            obj.vertex_groups.active_index = obj.vertex_groups[source.name].index
+            return kind, f"Weight 0 is covered, 1 is bare: painting {source.name!r}."
+        if source is not None and kind == "IMAGE":
+            _activate_image(mesh, mask)
+            return kind, f"Black is covered, white is bare: painting {source.name!r}."
+        return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
+    mask_colours.activate(mesh, source.name)
+    return "COLOUR", f"Black is covered, white is bare: painting {source.name!r}."
+
+
+def from_clothes(
+    obj: bpy.types.Object,
+    settings: SkinTanMask,
+    request: ClothesRequest,
+    context: bpy.types.Context,
+    scene: bpy.types.Scene,
+) -> Generator[float, None, str]:
+    """Cover what lies under garments; yields how much is done, and returns a sentence.
+
+    Until the end, nothing is changed.
+
+    Raises
+    ------
+    InputError
+        If there is no garment, or an object cannot be used.
+    """
+    if not request.garments:
+        raise InputError("No clothes are selected; select garments, and last the body.")
+    mesh = cast(bpy.types.Mesh, obj.data)
+    if not mesh.polygons:
+        raise InputError(f"{obj.name!r} has no faces, so nothing on it can be covered.")
+    skin = posed.posed_skin(obj, context)
+    surface = posed.posed_clothes(list(request.garments), context)
+    if not len(surface.triangles):
+        raise InputError(f"{names(request.garments)} have no faces, so they cover nothing.")
+    unit = 0.001 / body_unit(obj, scene)
+    reach = clothes.Reach(request.reach * unit, request.inside * unit, request.softness * unit)
+    yield 0.0
+    groups = {name for item in request.garments for name in clothes.delete_groups(obj, item)}
+    also = np.zeros(len(mesh.vertices), bool)
+    for name in groups:
+        also |= vertex_groups.weights(obj, name) > 0.5
+    shares = yield from clothes.covered_shares(skin, surface, reach, also)
+    if len(shares) != len(mesh.vertices):
+        raise InputError(f"{obj.name!r} was edited meanwhile; press From Clothes again.")
+    with Changes() as changes:
+        name = mask_colours.written(obj, settings.source, request.name, shares, changes)
+    mask_colours.activate(mesh, name)
+    _set(settings, name)
+    covered = 1.0 - float(shares.mean())
+    if covered == 0.0:
+        return (
+            f"No skin lies within {request.reach:g} mm under {names(request.garments)}: the mask "
+            f"{name!r} is all bare."
+        )
+    return f"The mask {name!r} covers {100 * covered:.0f} % of the points."
+
+
+def _mask(obj: bpy.types.Object, settings: SkinTanMask) -> masks.Mask:
+    owner = settings_of(obj)
+    return owner.object_mask() if settings == owner.mask else masks.Mask.of(settings)
+
+
+def _new_for_brush(
+    obj: bpy.types.Object,
+    settings: SkinTanMask,
+    mask: masks.Mask,
+    source: masks.Source | None,
+    form: tuple[str, str],
+) -> str:
+    """A new mask of a name and domain: all bare, or with the numbers of a mask without a brush."""
+    name, domain = form
+    mesh = cast(bpy.types.Mesh, obj.data)
+    said = "Black is covered, white is bare"
+    count = len(mesh.vertices) if domain == "POINT" else len(mesh.loops)
+    shares = np.ones(count, np.float32)
+    if source is not None:
+        plain = masks.Mask(mask.source, channel=mask.channel)
+        values = mask_values.mask_values(obj, plain)
+        shares, domain = values.shares, values.domain
+        said = f"{source.name!r} was copied, for Blender has no brush for it. {said}"
+    with Changes() as changes:
+        made = mask_colours.new_colours(mesh, name, shares, domain, changes)
+    mask_colours.activate(mesh, made)
+    if source is None:
+        _set(settings, made)
+    else:
+        settings.channel, settings.source = "MEAN", made
+    return f"{said}: painting {made!r}."
+
+
+def _set(settings: Any, name: str) -> None:
+    """Have a mask read a colour attribute that holds shares."""
+    settings.invert, settings.strength, settings.channel = False, 1.0, "MEAN"
+    settings.source = name
+
+
+def _activate_image(mesh: bpy.types.Mesh, mask: masks.Mask) -> None:
+    paint: Any = cast(Any, bpy.context).tool_settings.image_paint
+    paint.mode, paint.canvas = "IMAGE", mask.image
+    layers: Any = mesh.uv_layers
+    if mask.uv_map in layers:
+        layers.active = layers[mask.uv_map]

@@ -1,0 +1,258 @@
+"""The buttons that make masks: for a brush, and from clothes."""
+
+import time
+from collections.abc import Generator
+from typing import Any, cast
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, StringProperty
+
+from hylios.errors import InputError
+
+from ..apply import tannable
+from ..masking import ClothesRequest, from_clothes, mask_for_brush
+from ..props import SkinTanMask, settings_of
+from .active import active_mesh, active_object, current_scene, selected_meshes
+
+STEP_SECONDS = 0.05
+"""So long From Clothes computes before it looks for Esc."""
+
+MODES = {"COLOUR": "VERTEX_PAINT", "GROUP": "WEIGHT_PAINT", "IMAGE": "TEXTURE_PAINT"}
+
+
+TARGETS = (
+    ("AUTO", "Selected", "The selected exposure's own mask if it has one, else the object's"),
+    ("OBJECT", "Object", "The mask of all exposures without one of their own"),
+    ("EXPOSURE", "Exposure", "The selected exposure's own mask; it gets one if it has none"),
+)
+"""Which mask a button makes or paints."""
+
+
+def target_property() -> Any:
+    return EnumProperty(
+        name="Mask of",
+        description="Which mask is made or painted",
+        items=TARGETS,
+        default="AUTO",
+        options={"SKIP_SAVE"},
+    )
+
+
+def edited_mask(obj: bpy.types.Object, target: str) -> SkinTanMask:
+    """The mask that a button makes or paints.
+
+    Raises
+    ------
+    InputError
+        If it is an exposure's and there is none.
+    """
+    settings = settings_of(obj)
+    exposures = settings.exposures
+    if target == "OBJECT" or (target == "AUTO" and not exposures):
+        return settings.mask
+    if not exposures:
+        raise InputError(f"{obj.name!r} has no exposure that could have a mask; add one first.")
+    exposure = exposures[min(settings.exposure_index, len(exposures) - 1)]
+    if target == "EXPOSURE" and not exposure.own_mask:
+        exposure.own_mask = True
+    return exposure.mask if exposure.own_mask else settings.mask
+
+
+def has_window(context: bpy.types.Context) -> bool:
+    return context.window is not None and not bpy.app.background
+
+
+class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.paint_mask"
+    bl_label = "Paint Mask"
+    bl_description = (
+        "Paint where the sun did not reach: black is covered, white is bare. Goes on with the mask "
+        "that there is, or makes one that is all bare"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    target: target_property()
+    name: StringProperty(name="Name", description="Name of a new mask", default="Sun Mask")
+    domain: EnumProperty(
+        name="Domain",
+        description="What holds the colours of a new mask",
+        items=(
+            ("POINT", "Points", "Smooth from point to point"),
+            ("CORNER", "Corners", "Faces can be filled alone, with hard edges, by Paint Mask"),
+        ),
+        default="POINT",
+    )
+    enter: BoolProperty(
+        name="Enter Paint Mode",
+        description="Take up the brush, where there is a window",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+    def execute(self, context):
+        try:
+            obj = tannable(active_object(context))
+            kind, said = mask_for_brush(obj, edited_mask(obj, self.target), self.name, self.domain)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if (
+            self.enter
+            and has_window(context)
+            and obj == cast(Any, context).view_layer.objects.active
+        ):
+            if obj.mode != MODES[kind]:
+                cast(Any, bpy.ops).object.mode_set(mode=MODES[kind])
+            if kind == "COLOUR":
+                _take_black(context)
+        self.report({"INFO"}, said)
+        return {"FINISHED"}
+
+
+def _take_black(context: bpy.types.Context) -> None:
+    """Have the brush paint black, and white with its second colour (X swaps them)."""
+    tools: Any = context.tool_settings
+    paint = tools.vertex_paint
+    unified = getattr(paint, "unified_paint_settings", None) or tools.unified_paint_settings
+    brush = unified if unified.use_unified_color else paint.brush
+    if brush is not None:
+        brush.color, brush.secondary_color = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+
+
+class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.mask_from_clothes"
+    bl_label = "From Clothes"
+    bl_description = (
+        "Cover what lies under the selected garments. Select them first and the body last; pose "
+        "arms and legs apart. The mask can be painted on. Esc cancels"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    garments: CollectionProperty(
+        name="Garments",
+        description="Names of garments; the other selected meshes if none are given",
+        type=bpy.types.OperatorFileListElement,
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
+    target: target_property()
+    name: StringProperty(name="Name", description="Name of a new mask", default="Clothes Mask")
+    reach: FloatProperty(
+        name="Reach (mm)",
+        description="How far from the skin cloth may be, in millimetres, to cover it",
+        default=30.0,
+        min=0.0,
+        soft_max=200.0,
+        max=10000.0,
+        step=100,
+        precision=1,
+    )
+    inside: FloatProperty(
+        name="Inside (mm)",
+        description="How far cloth may dip into the skin, in millimetres, and still cover it",
+        default=5.0,
+        min=0.0,
+        soft_max=50.0,
+        max=10000.0,
+        step=100,
+        precision=1,
+    )
+    softness: FloatProperty(
+        name="Softness (mm)",
+        description="Width of the edge of the tan in millimetres, from covered to bare. Where the "
+        "mesh is coarse the edge is a little wider than the mesh's own edges are long",
+        default=4.0,
+        min=0.0,
+        soft_max=100.0,
+        max=10000.0,
+        step=100,
+        precision=1,
+    )
+
+    _work: Generator[float, None, str] | None = None
+    _timer: Any = None
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+    def invoke(self, context, event):
+        del event
+        if not has_window(context):
+            return self.execute(context)
+        try:
+            self._work = self._started(context)
+            next(self._work)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        manager: Any = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        self._timer = manager.event_timer_add(0.01, window=context.window)
+        manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self._end(context)
+            self.report({"INFO"}, "Cancelled; nothing has changed.")
+            return {"CANCELLED"}
+        if event.type != "TIMER" or self._work is None:
+            return {"RUNNING_MODAL"}
+        manager: Any = context.window_manager
+        until = time.monotonic() + STEP_SECONDS
+        try:
+            while time.monotonic() < until:
+                manager.progress_update(next(self._work))
+        except StopIteration as done:
+            self._end(context)
+            self.report({"INFO"}, done.value)
+            return {"FINISHED"}
+        except InputError as error:
+            self._end(context)
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"RUNNING_MODAL"}
+
+    def _end(self, context: Any) -> None:
+        context.window_manager.progress_end()
+        context.window_manager.event_timer_remove(self._timer)
+        self._work = self._timer = None
+
+    def execute(self, context):
+        try:
+            work = self._started(context)
+            while True:
+                next(work)
+        except StopIteration as done:
+            self.report({"INFO"}, done.value)
+            return {"FINISHED"}
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    def _started(self, context: bpy.types.Context) -> Generator[float, None, str]:
+        obj = tannable(active_object(context))
+        named = [item.name for item in cast(Any, self).garments]
+        garments = [_object(name) for name in named] if named else selected_meshes(context)
+        request = ClothesRequest(
+            garments=tuple(garment for garment in garments if garment != obj),
+            name=self.name,
+            reach=self.reach,
+            inside=self.inside,
+            softness=self.softness,
+        )
+        return from_clothes(
+            obj, edited_mask(obj, self.target), request, context, current_scene(context)
+        )
+
+
+def _object(name: str) -> bpy.types.Object:
+    obj = bpy.data.objects.get(name)
+    if obj is None:
+        raise InputError(f"There is no object {name!r}; garments are names of objects.")
+    if obj.type != "MESH":
+        raise InputError(f"{name!r} is of type {obj.type}; a garment is a mesh object.")
+    return obj

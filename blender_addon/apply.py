@@ -33,10 +33,15 @@ from .scene.plan import LOOK
 from .views import keep_view, remember_source
 
 
-def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
+def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bool = False) -> str:
     """Give an object the tan that its settings describe, and return a sentence on what was done.
 
     No other object changes its look. Nothing in the file is changed where an error is raised.
+
+    Parameters
+    ----------
+    rough : bool
+        Whether the look is for a moment only; the object still counts as changed then.
 
     Raises
     ------
@@ -52,7 +57,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
     values = settings.values()
     days = values.first_day, values.last_day
     frames = timing.frames(settings, days, scene)
-    tan = tan_of(values)
+    tan = tan_of(values, rough=rough)
     with Changes() as changes:
         skin = skins.prepare(obj, replacing=settings.new_material)
         first_version.take_over(skin.group, changes)
@@ -72,8 +77,9 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene) -> str:
         in_view = keep_view(skin.group, skin.trees(), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
-        source = applied.note(obj, scene, changes)
-        images.note_content((sampled.states, sampled.places), source)
+        if not rough:
+            source = applied.note(obj, scene, changes)
+            images.note_content((sampled.states, sampled.places), source)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += mask_values.remarks(obj, mask, shown)

@@ -3,7 +3,8 @@
 A handler notices that settings differ from those that a tan shows (`applied`) and registers a
 timer; so nothing is changed while Blender evaluates or draws. A new schedule only gets new pixels
 in the images of the history, fast and roughly at first; after a rest, and before the file is saved,
-they are made exact and lasting. All other changes are applied as the button does.
+they are made exact and lasting. All other changes are applied as the button does, those of
+the biology roughly at first.
 
 Blender's undo takes what changed since its last step for unchanged. So pixels change in place, and
 Apply is followed by a step of the undo history. After undo and redo pixels are compared with the
@@ -93,7 +94,8 @@ def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Pr
             if applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
                 show_schedule(obj, scene, precision)
             else:
-                apply_tan(obj, scene)
+                is_rough = precision is DRAG and settings_of(obj).biology.is_changed()
+                apply_tan(obj, scene, rough=is_rough)
                 has_applied = True
         except InputError:
             pass  # Apply says why, when the artist wants to know

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,8 @@ from hylios.errors import InputError
 from hylios.table import MinimalDoses
 
 from .model import catalogue
-from .model.settings import TanSettings
+from .model.biology import table_with
+from .model.settings import Biology, TanSettings
 from .model.tan import Tan
 from .model.views import VIEWS, VISIBLE, BandLook, band_look, left_by_film
 from .props import SkinTanSettings, table_file
@@ -35,6 +37,7 @@ def remember_source(
         "table_path": settings.table_path,
         "mmd": doses.mmd,
         "med": doses.med,
+        "biology": asdict(values.biology),
         "ends": _ends(tan.look),
     }
     changes.set_key(group, SOURCE_KEY, json.dumps(source))
@@ -130,7 +133,8 @@ def _bands(view: str) -> Bands:
 def _look(source: Mapping[str, Any], view: str) -> BandLook:
     path: Path = table_file(source["skin"], source["table_path"])
     doses = MinimalDoses(mmd=source["mmd"], med=source["med"])
-    look = band_look(catalogue.table(path), doses, VIEWS[view])
+    biology = Biology(**source.get("biology", {}))
+    look = band_look(table_with(path, biology, bands=True), doses, VIEWS[view])
     if not np.allclose(_ends(look), source["ends"], atol=1e-3):
         raise InputError("the table has changed since Apply; press Apply Tan.")
     return look

@@ -26,6 +26,7 @@ from hylios.tanning.spread import Spread, spread_of
 from hylios.tissue import Model
 
 COLOUR, TOTAL, WET = "subsurface_colour", "total_colour", "wet_subsurface_colour"
+BANDS = "band_reflectance"
 ANGLES = (8.0, 45.0, 60.0, 70.0)
 WAVELENGTHS = 8
 
@@ -53,10 +54,10 @@ thickness that skin reaches with so much melanin, z of the logarithm of blood, f
 
 OWN_BLOOD = ((0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (0, 1, 0), (1, 1, 0))
 MORE_BLOOD = ((0, 0, 1), (0, 0, 2), (1, 0, 1), (1, 0, 2))
+"""Powers of x, y and z in the polynomials: of skin with its own blood, and of what more adds."""
+
 OWN = 8
 """How many of the states have the skin's own blood; they come first."""
-
-"""Powers of x, y and z in the polynomials: of skin with its own blood, and of what more adds."""
 
 LEAST_ROOT = 0.85
 """Square root of melanin at x of -1, relative to the skin's without sun."""
@@ -78,7 +79,7 @@ class Correction:
     beyond : (B,) array
         Square roots of melanin below and above these, ascending, in the order of `ends`.
     coefficients : mapping of names to (T, components) arrays
-        Of the planes' logarithms.
+        Of the planes' logarithms; the later terms may be left out.
     ends : mapping of names to (B, components) arrays
         What is added to the polynomials' logarithm there, and straight in between.
     """
@@ -106,10 +107,10 @@ class Correction:
         """Factors (..., components) of planes by name, at coordinates (..., 4)."""
         terms = self.terms(coordinates, (*OWN_BLOOD, *MORE_BLOOD))
         weights = self.weights(coordinates)
-        return {
-            name: np.exp(terms @ own + weights @ self.ends[name])
-            for name, own in self.coefficients.items()
-        }
+        logarithms = {name: terms[..., : len(own)] @ own for name, own in self.coefficients.items()}
+        for name, ends in self.ends.items():
+            logarithms[name] += weights @ ends
+        return {name: np.exp(logarithm) for name, logarithm in logarithms.items()}
 
     def weights(self, coordinates: np.ndarray) -> NDArray[np.float64]:
         """Weights (..., B) of `ends` at coordinates (..., 4): 0 where the polynomials hold."""
@@ -167,10 +168,21 @@ class ChangedTable(SkinTable):
         return moved
 
 
-def changed_table(table: SkinTable, biology: Biology) -> SkinTable:
+def changed_table(
+    table: SkinTable, biology: Biology, *, rough: bool = False, bands: bool = False
+) -> SkinTable:
     """A skin's table with another biology; the table itself where nothing changes.
 
     The skin keeps its kinetics, its sensitivity to the sun and what it absorbs of ultraviolet.
+
+    Parameters
+    ----------
+    rough : bool
+        Whether to solve only tans with the skin's own blood, in half the time. Flushed skin,
+        freckles and skin far paler are then changed as those are.
+    bands : bool
+        Whether the reflectance at single wavelengths is solved too; without, it is that of
+        another place on the table.
 
     Raises
     ------
@@ -201,7 +213,7 @@ def changed_table(table: SkinTable, biology: Biology) -> SkinTable:
     return replace(
         moved,
         provenance={**table.provenance, "specimen_parameters": vars(specimen)},
-        correction=_correction(moved, changed),
+        correction=_correction(moved, changed, rough, bands),
     )
 
 
@@ -211,7 +223,7 @@ def _ratio(one: Specimen, other: Specimen) -> float:
     return held / own if own > 0.0 else 1.0
 
 
-def _correction(moved: ChangedTable, changed: Skin) -> Correction:
+def _correction(moved: ChangedTable, changed: Skin, rough: bool, bands: bool) -> Correction:
     """What takes a table looked up at other places to the changed skin."""
     sheet = spread_of(changed.dynamics, mmd=changed.mmd, med=changed.med)
     top = float(moved.axes.knots[0][-1])
@@ -223,20 +235,26 @@ def _correction(moved: ChangedTable, changed: Skin) -> Correction:
         bloodiest=float(np.log(MOST_BLOOD)),
         beyond=np.array([PALE_ROOT, *_freckles(high, top - np.log(max(moved.melanin, 1.0)), top)]),
     )
-    states = _states(correction, sheet)
-    told, solved = moved.lookup(states, list(_angles(moved))), _solved(changed, states, moved)
+    states = _states(correction, sheet)[: OWN if rough else None]
+    solved = _solved(changed, states, moved)
+    if bands and BANDS in moved.planes:
+        solved[BANDS] = _solved_bands(changed, states, moved)
+    told = moved.lookup(states, list(solved))
     coordinates = moved.axes.coordinates(states)
     own, more = (correction.terms(coordinates, powers) for powers in (OWN_BLOOD, MORE_BLOOD))
     plain, blood, ends = slice(0, OWN), slice(OWN, len(PLACES)), slice(len(PLACES), None)
     coefficients, beyond = {}, {}
     for name in solved:
         off = np.log(np.maximum(solved[name], FAINTEST) / np.maximum(told[name], FAINTEST))
-        first = _fitted(own[plain], off[plain])
-        off = off - own @ first
-        coefficients[name] = np.concatenate([first, _fitted(more[blood], off[blood])])
-        beyond[name] = off[ends]
+        coefficients[name] = _fitted(own[plain], off[plain])
+        if not rough:
+            off = off - own @ coefficients[name]
+            added = _fitted(more[blood], off[blood])
+            coefficients[name] = np.concatenate([coefficients[name], added])
+            beyond[name] = off[ends]
     if WET in moved.planes and COLOUR in coefficients:
-        coefficients[WET], beyond[WET] = coefficients[COLOUR], beyond[COLOUR]
+        coefficients[WET] = coefficients[COLOUR]
+        beyond |= {WET: beyond[COLOUR]} if COLOUR in beyond else {}
     return replace(correction, coefficients=coefficients, ends=beyond)
 
 
@@ -283,9 +301,20 @@ def _solved(changed: Skin, states: np.ndarray, table: SkinTable) -> dict[str, np
         [changed.at(state) for state in states],
         quadrature.wavelengths,
         angle=ANGLES,
-        model=Model(readings=table.provenance.get("readings", {})),
+        model=_model(table),
     )
     return {
         name: getattr(light, what)[number] @ quadrature.weights.T
         for name, (what, number) in _angles(table).items()
     }
+
+
+def _solved_bands(changed: Skin, states: np.ndarray, table: SkinTable) -> np.ndarray:
+    """Reflectance (N, B) of states at the wavelengths of the table's bands."""
+    return spectra(
+        [changed.at(state) for state in states], table.provenance["bands_nm"], model=_model(table)
+    ).total
+
+
+def _model(table: SkinTable) -> Model:
+    return Model(readings=table.provenance.get("readings", {}))

@@ -7,6 +7,7 @@ from typing import Any
 
 from hylios.errors import InputError, require_range, require_whole
 from hylios.history import LAST_DAY_LIMIT
+from hylios.skin.biology import RANGES, Biology
 from hylios.table.provenance import MinimalDoses, minimal_doses
 
 LEAST_MINIMAL_DOSE, LARGEST_MINIMAL_DOSE = 0.1, 1000.0
@@ -23,6 +24,10 @@ LEAST_SCALE, LARGEST_SCALE = 1e-4, 1e4
 
 FRAME_LIMIT = 1048574
 """Last frame of Blender's timeline; the first is minus this."""
+
+
+UNCHANGED = Biology()
+BIOLOGY_RANGES = RANGES
 
 
 @dataclass(frozen=True)
@@ -94,6 +99,8 @@ class TanSettings:
     exposures : tuple of Exposure
     first_day, last_day : float
         Days of the first and the last frame.
+    biology : Biology
+        What differs in the skin from that of the table.
 
     Raises
     ------
@@ -106,6 +113,7 @@ class TanSettings:
     exposures: tuple[Exposure, ...]
     first_day: float
     last_day: float
+    biology: Biology = UNCHANGED
 
     def __post_init__(self):
         check_days(self.first_day, self.last_day)

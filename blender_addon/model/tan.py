@@ -5,13 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hylios.errors import InputError
+from hylios.skin.biology import Biology
 from hylios.sun.doses import Doses
 from hylios.table import MinimalDoses, SkinTable, melanin_dynamics
 
 from . import catalogue, doses
+from .biology import table_with
 from .history import FULL, History, Precision, history
 from .look import Look, look
-from .settings import TanSettings, check_days
+from .settings import Exposure, TanSettings, check_days
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,19 +32,29 @@ class Tan:
     look: Look
 
 
-def tan_of(settings: TanSettings) -> Tan:
+def tan_of(settings: TanSettings, *, rough: bool = False) -> Tan:
     """What an object's settings lead to.
+
+    Parameters
+    ----------
+    rough : bool
+        As in `look_of`.
 
     Raises
     ------
     InputError
         If a setting or the table cannot be used.
     """
-    return Tan(history_of(settings), look_of(settings))
+    return Tan(history_of(settings), look_of(settings, rough=rough))
 
 
-def look_of(settings: TanSettings) -> Look:
-    """The look of an object's skin; made again only when its table or its sensitivity changes.
+def look_of(settings: TanSettings, *, rough: bool = False) -> Look:
+    """The look of an object's skin; made again only when its table, biology or sensitivity changes.
+
+    Parameters
+    ----------
+    rough : bool
+        Whether it is for a moment only; as in `hylios.changed_table.changed_table`.
 
     Raises
     ------
@@ -50,12 +62,14 @@ def look_of(settings: TanSettings) -> Look:
         If the table cannot be used.
     """
     minimal = settings.minimal_doses(catalogue.provenance(settings.table))
-    return _look(settings.table, catalogue.stamp(settings.table), minimal)
+    return _look(settings.table, catalogue.stamp(settings.table), minimal, settings.biology, rough)
 
 
-@functools.lru_cache(maxsize=8)
-def _look(path: Path, stamp: tuple[int, int], minimal: MinimalDoses) -> Look:
-    return look(catalogue.table(path), minimal)
+@functools.lru_cache(maxsize=16)
+def _look(
+    path: Path, stamp: tuple[int, int], minimal: MinimalDoses, biology: Biology, rough: bool
+) -> Look:
+    return look(table_with(path, biology, rough=rough), minimal)
 
 
 def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
@@ -67,15 +81,25 @@ def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
         If a setting or the table cannot be used, or the table was built for a schedule that leads
         elsewhere.
     """
-    table = catalogue.table(settings.table)
-    minimal = settings.minimal_doses(table.provenance)
-    return history_within(
-        table,
-        doses.received(settings.exposures, minimal.mmd, table.provenance),
-        minimal,
-        (settings.first_day, settings.last_day),
-        precision,
-    )
+    minimal = settings.minimal_doses(catalogue.provenance(settings.table))
+    days = settings.first_day, settings.last_day
+    stamp = catalogue.stamp(settings.table)
+    return _history(settings.table, stamp, settings.exposures, minimal, days, precision)
+
+
+@functools.lru_cache(maxsize=16)
+def _history(
+    path: Path,
+    stamp: tuple[int, int],
+    exposures: tuple[Exposure, ...],
+    minimal: MinimalDoses,
+    days: tuple[float, float],
+    precision: Precision,
+) -> History:
+    """The history, kept: what changes only the look needs it again."""
+    table = catalogue.table(path)
+    received = doses.received(exposures, minimal.mmd, table.provenance)
+    return history_within(table, received, minimal, days, precision)
 
 
 def history_within(

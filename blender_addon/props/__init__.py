@@ -1,5 +1,6 @@
 """What an artist sets on an object."""
 
+from .biology import SkinTanBiology
 from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask
 from .material import SkinTanMaterial
@@ -9,6 +10,7 @@ from .scene import SkinTanScene
 
 __all__ = [
     "CLASSES",
+    "SkinTanBiology",
     "SkinTanExposure",
     "SkinTanFilmMask",
     "SkinTanMask",
@@ -22,7 +24,14 @@ __all__ = [
 CLASSES = (
     *map(
         overridable,
-        (SkinTanMask, SkinTanFilmMask, SkinTanExposure, SkinTanMaterial, SkinTanSettings),
+        (
+            SkinTanBiology,
+            SkinTanMask,
+            SkinTanFilmMask,
+            SkinTanExposure,
+            SkinTanMaterial,
+            SkinTanSettings,
+        ),
     ),
     SkinTanScene,
 )

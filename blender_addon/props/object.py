@@ -33,6 +33,7 @@ from ..model.settings import (
 )
 from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
 from ..scene.masks import Mask
+from .biology import SkinTanBiology
 from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask, take_attribute, usable_names
 from .material import SkinTanMaterial
@@ -98,6 +99,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         description="File of a skin table (EXR), as lut-builder makes it",
         subtype="FILE_PATH",
         options={"PATH_SUPPORTS_BLEND_RELATIVE"},
+    )
+    biology: PointerProperty(
+        name="Biology",
+        description="What differs in this skin from its type",
+        type=SkinTanBiology,
     )
     own_minimal_doses: BoolProperty(
         name="Set Sensitivity by Hand",
@@ -265,6 +271,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
             exposures=tuple(Exposure.of(item) for item in self.exposures if item.enabled),
             first_day=self.first_day,
             last_day=self.last_day,
+            biology=self.biology.values(),
         )
 
     def timing_values(self) -> Timing:

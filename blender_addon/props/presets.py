@@ -6,7 +6,7 @@ import bpy
 
 HEADER = "import bpy\n\nsettings = bpy.context.view_layer.objects.active.skin_tan\n\n"
 
-SKIN = ("skin", "table_path", "own_minimal_doses", "mmd", "med")
+SKIN = ("skin", "table_path", "biology", "own_minimal_doses", "mmd", "med")
 SCHEDULE = ("first_day", "last_day", "exposures")
 """Names of what a preset of a skin and of a schedule holds."""
 
@@ -30,6 +30,10 @@ def _lines(group: bpy.types.PropertyGroup, path: str, name: str) -> Iterator[str
                 if item.is_property_set(inner.identifier) and inner.type != "POINTER":
                     if inner.identifier not in OF_ONE_MESH:
                         yield from _lines(item, "item", inner.identifier)
+    elif kind == "POINTER":
+        for inner in value.bl_rna.properties:
+            if inner.identifier not in ("rna_type", "name"):
+                yield from _lines(value, f"{path}.{name}", inner.identifier)
     elif kind == "FLOAT" and hasattr(value, "__len__"):
         yield f"{path}.{name} = {tuple(value)!r}"
     else:

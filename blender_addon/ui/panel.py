@@ -8,6 +8,7 @@ from ..applied import is_changed
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
 from ..scene.timeline import shown_day
+from .biology import draw_biology
 from .exposures import draw_exposures
 from .masks import draw_object_mask
 from .materials import draw_materials
@@ -75,6 +76,13 @@ class _Skin(_Section):
         draw_skin(_layout(self), _mesh(context))
 
 
+class _Biology(_Section):
+    bl_label = "Biology"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_biology(_layout(self), settings_of(_mesh(context)))
+
+
 class _Exposures(_Section):
     bl_label = "Time in the Sun"
     bl_options: set[str] = set()
@@ -134,6 +142,10 @@ class VIEW3D_PT_skin_tan_skin(_Sidebar, _Skin, bpy.types.Panel):  # noqa: N801
     bl_parent_id = "VIEW3D_PT_skin_tan"
 
 
+class VIEW3D_PT_skin_tan_biology(_Sidebar, _Biology, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan_skin"
+
+
 class VIEW3D_PT_skin_tan_exposures(_Sidebar, _Exposures, bpy.types.Panel):  # noqa: N801
     bl_parent_id = "VIEW3D_PT_skin_tan"
 
@@ -166,6 +178,10 @@ class MATERIAL_PT_skin_tan_skin(_MaterialTab, _Skin, bpy.types.Panel):  # noqa: 
     bl_parent_id = "MATERIAL_PT_skin_tan"
 
 
+class MATERIAL_PT_skin_tan_biology(_MaterialTab, _Biology, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan_skin"
+
+
 class MATERIAL_PT_skin_tan_exposures(_MaterialTab, _Exposures, bpy.types.Panel):  # noqa: N801
     bl_parent_id = "MATERIAL_PT_skin_tan"
 
@@ -189,6 +205,7 @@ class MATERIAL_PT_skin_tan_film(_MaterialTab, _Film, bpy.types.Panel):  # noqa: 
 SIDEBAR = (
     VIEW3D_PT_skin_tan,
     VIEW3D_PT_skin_tan_skin,
+    VIEW3D_PT_skin_tan_biology,
     VIEW3D_PT_skin_tan_exposures,
     VIEW3D_PT_skin_tan_mask,
     VIEW3D_PT_skin_tan_timeline,
@@ -198,6 +215,7 @@ SIDEBAR = (
 MATERIAL_TAB = (
     MATERIAL_PT_skin_tan,
     MATERIAL_PT_skin_tan_skin,
+    MATERIAL_PT_skin_tan_biology,
     MATERIAL_PT_skin_tan_exposures,
     MATERIAL_PT_skin_tan_mask,
     MATERIAL_PT_skin_tan_timeline,

@@ -1,0 +1,126 @@
+"""Sliders of biology: what they show, and how a table is built with them."""
+
+import shlex
+
+import bpy
+import numpy as np
+import pytest
+from scenes import apply, look, of_role, pixels, tan_group, tan_object
+
+from blender_addon import applied, live
+from blender_addon.model import biology as biologies
+from blender_addon.model import catalogue
+from blender_addon.model.biology import build_command, table_with
+from blender_addon.model.tan import look_of
+from hylios.skin.biology import Biology
+from hylios.table import skin_of
+from lut_builder import cli
+
+III = catalogue.shipped_path("III")
+
+
+@pytest.fixture
+def body():
+    obj = tan_object(III)
+    obj.skin_tan.skin = "III"
+    apply(obj)
+    return obj
+
+
+def shown(obj) -> np.ndarray:
+    return pixels(of_role(obj, "colour").image)[..., :3]
+
+
+def test_sliders_show_and_defaults_give_the_skin_back(body):
+    before = shown(body).copy()
+    body.skin_tan.biology.blood = 2.0
+    assert apply(body) == {"FINISHED"}
+    np.testing.assert_allclose(shown(body), look_of(body.skin_tan.values()).colour, atol=1e-6)
+    # redder: less green beside red, wherever there is little melanin
+    left = slice(0, 40)
+    assert np.all(shown(body)[0, left, 1] < before[0, left, 1])
+    assert bpy.ops.skin_tan.reset_biology() == {"FINISHED"}
+    apply(body)
+    np.testing.assert_array_equal(shown(body), before)
+
+
+def test_dragging_shows_at_once_and_rests_exact(body):
+    body.skin_tan.biology.oxygenation = -20.0
+    scene = bpy.context.scene
+    before = look(body)
+    live.show_changes()
+    roughly = shown(body).copy()
+    assert look(body) != before and applied.is_changed(body, scene)
+    live.make_exact()
+    assert not applied.is_changed(body, scene)
+    np.testing.assert_allclose(roughly, shown(body), atol=0.02)
+    np.testing.assert_allclose(shown(body), look_of(body.skin_tan.values()).colour, atol=1e-6)
+
+
+def test_skins_of_one_biology_share_their_images(body):
+    other = tan_object(III)
+    other.skin_tan.skin = "III"
+    for obj in (body, other):
+        obj.skin_tan.biology.melanin = 1.4
+        apply(obj)
+    assert of_role(body, "colour").image == of_role(other, "colour").image
+    other.skin_tan.biology.melanin = 1.0
+    apply(other)
+    assert of_role(body, "colour").image != of_role(other, "colour").image
+
+
+def test_a_view_shows_the_biology(body):
+    body.skin_tan.biology.melanin = 0.4
+    apply(body)
+    assert bpy.ops.skin_tan.switch_view(view="NM365") == {"FINISHED"}
+    bpy.ops.skin_tan.switch_view(view="VISIBLE")
+    untanned = skin_of(catalogue.provenance(III)).untanned_state
+    own, changed = (
+        table_with(III, biology, bands=True).plane("band_reflectance", untanned)
+        for biology in (Biology(), Biology(melanin=0.4))
+    )
+    assert changed[0] > 1.2 * own[0]
+
+
+def test_an_error_leaves_the_tan(body, monkeypatch):
+    before = look(body)
+    monkeypatch.setattr(biologies, "changed_table", refuse)
+    body.skin_tan.biology.thickness = 1.234
+    with pytest.raises(RuntimeError, match="cannot be changed"):
+        bpy.ops.skin_tan.apply()
+    assert look(body) == before and tan_group(body) is not None
+
+
+def refuse(*_, **__):
+    from hylios.errors import InputError
+
+    raise InputError("the table cannot be changed.")
+
+
+@pytest.mark.parametrize("skin", ["III", "VI", "S2"])
+def test_the_command_builds_this_skin(body, skin, monkeypatch):
+    settings = body.skin_tan
+    settings.skin = skin
+    settings.biology.blood, settings.biology.melanin = 1.5, 1.2
+    values = settings.values()
+    command = shlex.split(build_command(values))
+    assert command[0] == "lut-builder" and command[-2:] == ["-o", "skin.exr"]
+    built = []
+    monkeypatch.setattr("lut_builder.commands.build.build_table", built.append)
+    cli.main(command[1:])
+    from hylios.commands.shell import chosen_tanning_skin
+
+    made, told = chosen_tanning_skin(built[0]), skin_of(catalogue.provenance(values.table))
+    expected = values.biology.of(told.specimen)
+    for name, value in vars(expected).items():
+        if isinstance(value, float):
+            assert getattr(made.specimen, name) == pytest.approx(value, rel=1e-5), name
+    assert (made.mmd, made.med) == pytest.approx((told.mmd, told.med), rel=1e-5)
+    assert made.dynamics == told.dynamics
+
+
+def test_the_command_is_reported_and_copied(body, capfd):
+    body.skin_tan.biology.blood = 2.0
+    assert bpy.ops.skin_tan.copy_build_command() == {"FINISHED"}
+    said = capfd.readouterr().out
+    assert "lut-builder build --skin III" in said and "papillary_blood=0.49616" in said

@@ -58,15 +58,13 @@ def _noise(label: str, location: tuple[int, int], per_millimetre: float, detail:
 
 def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) -> Role:
     # Noise of one octave is .25 to .75 nearly everywhere.
-    inputs = {"From Min": 0.25, "From Max": 0.75, "To Min": ends[0] - 1.0, "To Max": ends[1] - 1.0}
-    return Role("ShaderNodeMapRange", label, location, {"clamp": True}, inputs)
+    slope = (ends[1] - ends[0]) / 0.5
+    return math_role("MULTIPLY_ADD", label, location, at_1=slope, at_2=ends[0] - 1.0 - 0.25 * slope)
 
 
-def _smooth(
-    label: str, location: tuple[int, int], ends: tuple[float, float], values: tuple[float, float]
-) -> Role:
-    inputs = {"From Min": ends[0], "From Max": ends[1], "To Min": values[0], "To Max": values[1]}
-    return Role("ShaderNodeMapRange", label, location, {"interpolation_type": "SMOOTHSTEP"}, inputs)
+def _beyond(label: str, location: tuple[int, int], edge: float, slope: float) -> Role:
+    """Height beyond an edge; a Map Range would add three times as much to a file."""
+    return math_role("MULTIPLY_ADD", label, location, at_1=slope, at_2=-slope * edge)
 
 
 ROLES = {
@@ -87,11 +85,14 @@ ROLES = {
     "lines": math_role("PINGPONG", "Highest at lines", (-400, 600), at_1=0.5),
     "other_lines": math_role("PINGPONG", "Highest at other lines", (-400, 400), at_1=0.5),
     "all_lines": math_role("SMOOTH_MAX", "Lines that cross", (-200, 500), at_2=0.04),
-    "between_lines": _smooth(
-        "Height between lines in mm", (0, 500), (0.5 - LINE, 0.5), (LINE_MILLIMETRES, 0.0)
+    "line": _beyond("Height in a line in mm", (0, 500), 0.5 - LINE, LINE_MILLIMETRES / LINE),
+    "in_line": math_role("SMOOTH_MAX", "Depth of lines in mm", (150, 500), at_1=0.0, at_2=0.01),
+    "pore": _beyond(
+        "Height in a pore in mm", (0, 250), PORE[0], PORE_MILLIMETRES / (PORE[1] - PORE[0])
     ),
-    "pores": _smooth("Depth of pores in mm", (0, 200), PORE, (0.0, PORE_MILLIMETRES)),
-    "height": math_role("SUBTRACT", "Height in mm", (150, 350)),
+    "in_pore": math_role("MAXIMUM", "Depth of pores in mm", (150, 250), at_1=0.0),
+    "depth": math_role("ADD", "Depth in mm", (300, 400)),
+    "height": math_role("MULTIPLY", "Height in mm", (400, 250), at_1=-1.0),
     "deep": math_role("MULTIPLY", "Relief", (300, 250)),
     "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
     "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
@@ -117,25 +118,28 @@ LINKS: tuple[Link, ...] = (
     ("across", "Value", "bent", 2),
     ("texture", "Fac", "lines", 0),
     ("bent", "Value", "other_lines", 0),
-    ("texture", "Fac", "pores", "Value"),
     ("lines", "Value", "all_lines", 0),
     ("other_lines", "Value", "all_lines", 1),
-    ("all_lines", "Value", "between_lines", "Value"),
-    ("between_lines", "Result", "height", 0),
-    ("pores", "Result", "height", 1),
+    ("all_lines", "Value", "line", 0),
+    ("line", "Value", "in_line", 0),
+    ("texture", "Fac", "pore", 0),
+    ("pore", "Value", "in_pore", 0),
+    ("in_line", "Value", "depth", 0),
+    ("in_pore", "Value", "depth", 1),
+    ("depth", "Value", "height", 0),
     ("height", "Value", "deep", 0),
     ("input", "Relief", "deep", 1),
     ("deep", "Value", "bump", "Height"),
     ("input", "Millimetre", "bump", "Distance"),
     ("bump", "Normal", "output", "Normal"),
-    ("pigment", "Fac", "pigment_factor", "Value"),
-    ("pigment_factor", "Result", "melanin", 0),
+    ("pigment", "Fac", "pigment_factor", 0),
+    ("pigment_factor", "Value", "melanin", 0),
     ("input", "Variation", "melanin", 1),
     ("melanin", "Value", "more_melanin", 0),
     ("input", "Melanin", "more_melanin", 1),
     ("more_melanin", "Value", "output", "Melanin"),
-    ("vessels", "Fac", "vessels_factor", "Value"),
-    ("vessels_factor", "Result", "blood", 0),
+    ("vessels", "Fac", "vessels_factor", 0),
+    ("vessels_factor", "Value", "blood", 0),
     ("input", "Variation", "blood", 1),
     ("blood", "Value", "more_blood", 0),
     ("input", "Blood", "more_blood", 1),

@@ -7,7 +7,7 @@ from scenes import apply, tan_object
 
 MEGABYTE = 1e6
 
-RELIEF = 0.14
+RELIEF = 0.12
 """Megabytes of the group of skin's relief, which a file holds once."""
 
 
@@ -29,10 +29,13 @@ def sunny(table_path, days: float, exposures: int):
 
 @pytest.mark.parametrize(
     ("days", "exposures", "first", "further"),
-    [(30.0, 1, 0.4, 0.35), (30.0, 10, 0.44, 0.38), (365.0, 20, 0.7, 0.6)],
+    [(30.0, 1, 0.485, 0.42), (30.0, 10, 0.535, 0.46), (365.0, 20, 0.735, 0.66)],
 )
 def test_a_tan_adds_little_to_a_file(table_path, tmp_path, days, exposures, first, further):
-    """In megabytes. Another object of the same skin brings neither look nor relief of its own."""
+    """In megabytes, as measured: half of it are nodes, 3 kB and more for each.
+
+    Another object of the same skin brings neither look nor relief of its own.
+    """
     objects = [sunny(table_path, days, exposures) for _ in range(2)]
     sizes = [saved(tmp_path)]
     for obj in objects:

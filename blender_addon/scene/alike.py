@@ -98,8 +98,8 @@ def _plain(value: Any, stands_for: Mapping[Any, Any], depth: int) -> Any:
     return tuple(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
 
 
-def _animation(block: bpy.types.ID) -> tuple[Any, ...] | None:
-    animation: Any = block.animation_data
+def _animation(block: Any) -> tuple[Any, ...] | None:
+    animation = block.animation_data
     if animation is None:
         return None
     return animation.action, len(animation.drivers), len(animation.nla_tracks)

@@ -104,11 +104,10 @@ def _recorded(bag: Any) -> dict[tuple[str, int], Any]:
 def _empty(action: Any, slot: Any) -> None:
     """Remove the curve of the day, and what was made for it and holds nothing now."""
     made = str(action.get(MADE, "")).split()
-    bag = action_get_channelbag_for_slot(action, slot)
-    curve = bag.fcurves.find(DATA_PATH) if bag else None
-    if curve is not None:
-        bag.fcurves.remove(curve)
-    if not len(bag.fcurves):
+    bag: Any = action_get_channelbag_for_slot(action, slot)
+    if bag is not None:
+        bag.fcurves.remove(bag.fcurves.find(DATA_PATH))
+    if bag is None or not len(bag.fcurves):
         for layer in list(action.layers):
             for strip in layer.strips:
                 if BAG in made and strip.channelbag(slot) is not None:

@@ -51,7 +51,7 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
     waiting: list[tuple[Any, tuple[Any, ...]]] = [(end, path)]
     seen: set[tuple[Any, str]] = set()
     while waiting:
-        socket, path = waiting.pop(0)
+        socket, around = waiting.pop(0)
         if not socket.is_linked:
             # A plain colour counts only where it is the shader's, maybe through groups' inputs.
             if socket == end or getattr(socket.node, "node_tree", None) is not None:
@@ -68,12 +68,12 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
         if node.bl_idname == "ShaderNodeRGB":
             return np.array(node.outputs[0].default_value[:3], dtype=float)
         if inner is not None:
-            waiting += [(exit_, (*path, inner)) for exit_ in _exits(inner, output)]
-        elif node.bl_idname == "NodeGroupInput" and path:
-            outer = path[-2] if len(path) > 1 else material.node_tree
-            waiting += [(entry, path[:-1]) for entry in _entries(outer, path[-1], output)]
+            waiting += [(exit_, (*around, inner)) for exit_ in _exits(inner, output)]
+        elif node.bl_idname == "NodeGroupInput" and around:
+            outer, group = (material.node_tree, *around)[-2:]
+            waiting += [(entry, around[:-1]) for entry in _entries(outer, group, output)]
         else:
-            waiting += [(entry, path) for entry in node.inputs if entry.is_linked]
+            waiting += [(entry, around) for entry in node.inputs if entry.is_linked]
     return None
 
 

@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import bpy
 
-from . import detail, nodes, recolour, slots, views
+from . import detail, nodes, recolour, slots, vertex_groups, views
 from .alike import alike
 from .changes import Changes
 from .images import MARK
@@ -49,6 +49,7 @@ def take_off(obj: bpy.types.Object, changes: Changes) -> list[str]:
     if settings.material is not None:
         changes.set(settings, "material", None)
     changes.set(settings, "group", None)
+    vertex_groups.remove_own(obj, changes)
     made = [] if group is None else nodes.made_images(group)
     if own is not None and MADE in own:
         changes.at_the_end(partial(_remove_unused, [own]))

@@ -57,6 +57,17 @@ def test_all_is_as_it_was(table_path, make, replacing):
     unedited(obj, state())
 
 
+def test_copies_of_a_vertex_group_go(table_path):
+    obj = body_in(table_path, [plain("skin")])
+    obj.vertex_groups.new(name="cloth").add([0, 1], 1.0, "REPLACE")
+    obj.skin_tan.mask.source = "cloth"
+    before = state()
+    apply(obj)
+    assert any(attribute.name.startswith("skin_tan") for attribute in obj.data.attributes)
+    remove(obj)
+    assert state() == before
+
+
 def test_without_animation_none_is_left(table_path):
     obj = body_in(table_path, [textured("skin")])
     unedited(obj, state())

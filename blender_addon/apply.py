@@ -1,12 +1,16 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
 from . import applied, timing
 from .model import doses
+from .model.catalogue import table
 from .model.film import film_of
+from .model.fitting import untanned_colour
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
@@ -29,6 +33,7 @@ from .scene import (
 from .scene import skin as skins
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
+from .scene.painted import is_like_skin, painted_colour
 from .scene.plan import LOOK
 from .views import keep_view, remember_source
 
@@ -75,6 +80,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         remember_source(skin.group, settings, values, tan, changes)
         attached = skin.attach(changes)
         in_view = keep_view(skin.group, skin.trees(), changes)
+        skin.set_viewport_colour(untanned_colour(table(values.table)), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         if not rough:
@@ -98,6 +104,14 @@ def list_materials(obj: bpy.types.Object | None) -> None:
     obj = tannable(obj)
     with Changes() as changes:
         slots.remember(obj, slots.ticks(obj, skins.group_of(obj)), changes)
+
+
+def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
+    """Linear colour (3,) that the artist gave to the skin of an object, if that can be told."""
+    ticked = slots.ticks(obj, skins.group_of(obj))
+    colours = [painted_colour(obj, material) for material, tans in ticked.items() if tans]
+    skin = [colour for colour in colours if is_like_skin(colour)]
+    return np.median(skin, axis=0) if skin else None
 
 
 def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:

@@ -9,7 +9,8 @@ from bpy.props import BoolProperty, EnumProperty
 from hylios.errors import InputError
 
 from .. import timing
-from ..apply import apply_tan, tannable
+from ..apply import apply_tan, painted_skin, tannable
+from ..model.fitting import nearest_type
 from ..props import settings_of
 from ..props.copying import copy_values
 from .active import (
@@ -63,8 +64,8 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
         scene = current_scene(context)
         try:
             obj = tannable(active_object(context))
-            with _exposed(obj):
-                said = apply_tan(obj, scene)
+            with _exposed(obj), _fitted(obj) as fitted:
+                said = " ".join([apply_tan(obj, scene), *fitted])
             if self.show:
                 said = f"{said} {timing.show_darkest(obj, scene)}"
         except InputError as error:
@@ -102,6 +103,28 @@ class SKIN_TAN_OT_copy_to_selected(bpy.types.Operator):  # noqa: N801
             copy_values(settings, settings_of(other), leave=OF_THE_OBJECT)
         done = _apply(self, others, current_scene(context))
         return {"FINISHED"} if done else {"CANCELLED"}
+
+
+@contextmanager
+def _fitted(obj: bpy.types.Object) -> Iterator[list[str]]:
+    """Give an object the skin type nearest to its painted colour, unless one was set before.
+
+    An exception takes it back. Yields sentences on it.
+    """
+    settings = settings_of(obj)
+    colour = None
+    if settings.group is None and not settings.is_property_set("skin"):
+        colour = painted_skin(obj)
+    fitting = None if colour is None else nearest_type(colour)
+    if fitting is None:
+        yield []
+        return
+    settings.skin = fitting[0]
+    try:
+        yield [f"Of the skin types, {fitting[0]} is nearest to the painted colour."]
+    except BaseException:
+        settings.property_unset("skin")
+        raise
 
 
 @contextmanager

@@ -105,5 +105,11 @@ def _animation(block: Any) -> tuple[Any, ...] | None:
     return animation.action, len(animation.drivers), len(animation.nla_tracks)
 
 
-def _keys(block: Any) -> dict[str, str]:
-    return {key: repr(value) for key, value in block.items() if key not in OURS}
+def _keys(block: Any) -> dict[str, Any]:
+    """Custom properties that are not ours, as plain values."""
+    keys = {}
+    for key, value in block.items():
+        if key not in OURS:
+            plain = getattr(value, "to_dict", None) or getattr(value, "to_list", None)
+            keys[key] = plain() if plain else value
+    return keys

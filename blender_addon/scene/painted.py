@@ -14,7 +14,7 @@ SIDE = 256
 MOST_CORNERS = 20000
 """Corners of faces at which an image is looked up."""
 
-RED_OVER_GREEN, GREEN_OVER_BLUE, RED = (1.1, 3.5), (0.95, 3.0), (0.015, 0.98)
+RED_OVER_GREEN, GREEN_OVER_BLUE, RED = (1.1, 5.0), (0.95, 6.0), (0.015, 0.98)
 """Ranges of linear colours of human skin: of the types I to VI, pale to tanned, with a margin."""
 
 

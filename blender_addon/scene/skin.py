@@ -14,6 +14,9 @@ from .changes import Changes
 from .ownership import FORMER, MADE, Users, is_local, names, remembered
 from .trees import chain, shaders, tan_groups, tree_of
 
+VIEWPORT = "skin_tan_viewport"
+"""Custom property of a material of ours: the colour that Solid view was given."""
+
 
 @dataclass
 class Skin:
@@ -80,6 +83,16 @@ class Skin:
             said += removal.give_back(self.obj, unticked, self.users, changes)
         remarks = (recolour.remarks(block) for block, tans in ticked.items() if tans)
         return [*said, *itertools.chain.from_iterable(remarks)]
+
+    def set_viewport_colour(self, colour: Iterable[float], changes: Changes) -> None:
+        """Have materials of ours show a linear colour in Solid view, unless the artist set one."""
+        for block in self._shown():
+            if MADE not in block:
+                continue
+            given = tuple(block.diffuse_color)
+            if block in self._made or given == tuple(block.get(VIEWPORT, ())):
+                changes.set(block, "diffuse_color", (*colour, 1.0))
+                changes.set_key(block, VIEWPORT, list(block.diffuse_color))
 
     def _shown(self) -> list[bpy.types.Material]:
         blocks = [*(self._copies.get(block, block) for block in self._chain), *self._made]

@@ -61,7 +61,8 @@ def plain(end):
 
 
 def keys(block) -> dict:
-    return {key: repr(value) for key, value in block.items() if key != "cycles"}
+    """Custom properties; Blender 4.5 keeps what is registered among them."""
+    return {key: repr(v) for key, v in block.items() if key not in ("cycles", "skin_tan")}
 
 
 def of_object(obj) -> tuple:

@@ -22,6 +22,8 @@ from artist_skins import (
 from scenes import add_camera, apply, render, tan_group, tan_groups, tan_object, white_world
 from synthetic import UNTANNED_COLOUR
 
+from blender_addon.model import catalogue
+from blender_addon.model.fitting import untanned_colour
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
 
 
@@ -301,3 +303,37 @@ def test_principled_beside_eyes_of_another_output_stay(table_path):
     body_in(table_path, [material])
     apply()
     assert not spare.inputs["Base Color"].is_linked
+
+
+def painted_body(colour):
+    """A body with a texture and all settings at their defaults."""
+    obj = body_in("", [textured("skin", colours=[[colour]]), textured("eyes")])
+    obj.skin_tan.property_unset("skin")
+    obj.data.uv_layers.new()
+    return obj
+
+
+@pytest.mark.parametrize("name", ["I", "III", "VI"])
+def test_the_first_apply_takes_the_type_nearest_to_the_painted_colour(name, capfd):
+    colour = untanned_colour(catalogue.table(catalogue.shipped_path(name)))
+    obj = painted_body(tuple(colour))
+    assert apply() == {"FINISHED"}
+    assert obj.skin_tan.skin == name
+    assert f"Of the skin types, {name} is nearest to the painted colour." in capfd.readouterr().out
+
+
+def test_a_type_that_was_set_stays():
+    obj = painted_body((0.9, 0.7, 0.6))
+    obj.skin_tan.skin = "V"
+    apply()
+    assert obj.skin_tan.skin == "V"
+
+
+def test_solid_view_shows_the_untanned_colour_of_a_material_of_ours(table_path):
+    obj = tan_object(table_path)
+    apply()
+    material = obj.material_slots[0].material
+    assert material.diffuse_color[:] == pytest.approx((*UNTANNED_COLOUR, 1.0), abs=1e-3)
+    material.diffuse_color = (0.0, 0.0, 1.0, 1.0)
+    apply()
+    assert material.diffuse_color[:] == (0.0, 0.0, 1.0, 1.0)

@@ -1,0 +1,49 @@
+"""Which of the shipped skins comes nearest to a painted colour."""
+
+import functools
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hylios.colour_difference import ciede2000, lab
+from hylios.errors import InputError
+from hylios.table import SkinTable, melanin_dynamics
+
+from . import catalogue
+from .look import COLOUR
+
+
+def untanned_colour(table: SkinTable) -> NDArray[np.float64]:
+    """Linear colour (3,) of a table's skin without sun: of light that has been inside it.
+
+    Raises
+    ------
+    InputError
+        If the table does not say how its skin makes melanin, or has no colour.
+    """
+    steady = melanin_dynamics(table.provenance).steady_state()
+    return table.plane(COLOUR, np.append(steady / steady.sum(), 1.0))
+
+
+def nearest_type(colour: ArrayLike) -> tuple[str, float] | None:
+    """The shipped skin type that comes nearest to a linear colour (3,), and its CIEDE2000 to it.
+
+    None where no type is shipped.
+    """
+    types = [table for table in catalogue.SHIPPED if table.name in catalogue.TYPES]
+    colours = {table.name: _untanned(table.path, *catalogue.stamp(table.path)) for table in types}
+    wanted = lab(np.asarray(colour, dtype=float))
+    away = {
+        name: float(ciede2000(lab(np.array(own)), wanted)) for name, own in colours.items() if own
+    }
+    nearest = min(away, key=away.__getitem__, default=None)
+    return None if nearest is None else (nearest, away[nearest])
+
+
+@functools.lru_cache(maxsize=16)
+def _untanned(path: Path, modified: int, size: int) -> tuple[float, ...] | None:
+    try:
+        return tuple(untanned_colour(catalogue.table(path)).tolist())
+    except InputError:
+        return None

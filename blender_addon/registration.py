@@ -28,6 +28,7 @@ def register():
 
 
 def unregister():
+    ui.forget_swatches()
     painting.unregister()
     live.unregister()
     bpy.utils.unregister_preset_path(FOLDER)

@@ -13,7 +13,13 @@ from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_ad
 from .remove import SKIN_TAN_OT_remove
 from .schedule import SKIN_TAN_OT_export_schedule
 from .size import SKIN_TAN_OT_fit_size
-from .skin import SKIN_TAN_OT_copy_build_command, SKIN_TAN_OT_reset_biology
+from .skin import (
+    SKIN_TAN_OT_choose_type,
+    SKIN_TAN_OT_copy_build_command,
+    SKIN_TAN_OT_match_colour,
+    SKIN_TAN_OT_match_texture,
+    SKIN_TAN_OT_reset_biology,
+)
 from .timing import SKIN_TAN_OT_go_to_darkest_day, SKIN_TAN_OT_reset_timing
 from .view import SKIN_TAN_OT_switch_view
 
@@ -32,6 +38,9 @@ CLASSES = (
     SKIN_TAN_OT_go_to_darkest_day,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_fit_size,
+    SKIN_TAN_OT_choose_type,
+    SKIN_TAN_OT_match_colour,
+    SKIN_TAN_OT_match_texture,
     SKIN_TAN_OT_reset_biology,
     SKIN_TAN_OT_copy_build_command,
     SKIN_TAN_OT_skin_preset_add,

@@ -1,6 +1,8 @@
 """All that an artist sets on one object."""
 
+from contextlib import suppress
 from dataclasses import replace
+from math import isclose
 from pathlib import Path
 from typing import Any, cast
 
@@ -18,7 +20,7 @@ from bpy.props import (
 
 from hylios.errors import InputError
 
-from ..model.catalogue import FILE, shipped_path
+from ..model.catalogue import FILE, provenance, shipped_path
 from ..model.settings import (
     FRAME_LIMIT,
     LARGEST_MINIMAL_DOSE,
@@ -29,6 +31,7 @@ from ..model.settings import (
     Exposure,
     MinimalDoses,
     TanSettings,
+    minimal_doses,
     own_minimal_doses,
 )
 from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
@@ -59,6 +62,19 @@ def _set_two_frames(settings: "SkinTanSettings", _: bpy.types.Context) -> None:
     """Frames that a script sets count, as they did before there was a choice."""
     if settings.timing == SCENE:
         settings.timing = FRAMES
+
+
+def _start_at_skin(settings: "SkinTanSettings", _: bpy.types.Context) -> None:
+    """Doses that nobody has set start at those of the skin, and go with it."""
+    with suppress(InputError):
+        told = minimal_doses(provenance(settings.table_file()))
+        for name in ("mmd", "med"):
+            own = getattr(told, name)
+            if settings.own_minimal_doses:
+                if not settings.is_property_set(name):
+                    setattr(settings, name, own)
+            elif isclose(getattr(settings, name), own, rel_tol=1e-5):
+                settings.property_unset(name)
 
 
 def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
@@ -109,6 +125,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         name="Set Sensitivity by Hand",
         description="Set how much sun this person needs to tan and to burn, in place of the "
         "table's estimate",
+        update=_start_at_skin,
     )
     mmd: FloatProperty(
         name="Tans from (SED)",

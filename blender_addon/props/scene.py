@@ -4,7 +4,7 @@ from contextlib import suppress
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, FloatVectorProperty
 
 from ..model.views import VISIBLE
 from ..scene.views import view_of_file
@@ -29,6 +29,15 @@ VIEW_ITEMS = (
 
 
 class SkinTanScene(bpy.types.PropertyGroup):
+    sample: FloatVectorProperty(
+        name="Colour of Skin",
+        description="A colour of skin without sun and without gloss, to find the type that is "
+        "nearest. Pick it from a painted texture or a photo in even light",
+        subtype="COLOR",
+        default=(0.45, 0.25, 0.17),
+        min=0.0,
+        max=1.0,
+    )
     view: EnumProperty(
         name="View",
         description="Show all tanned skin of this file in one band of light. Other materials "

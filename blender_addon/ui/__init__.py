@@ -3,7 +3,10 @@
 from .exposures import SKIN_TAN_MT_exposures, SKIN_TAN_UL_exposures
 from .panel import MATERIAL_TAB, SIDEBAR
 from .presets import SKIN_TAN_PT_schedule_presets, SKIN_TAN_PT_skin_presets
+from .swatches import forget_swatches
 from .view import VIEW3D_PT_skin_tan_view
+
+__all__ = ["CLASSES", "forget_swatches"]
 
 CLASSES = (
     SKIN_TAN_PT_skin_presets,

@@ -73,7 +73,7 @@ class _Skin(_Section):
         SKIN_TAN_PT_skin_presets.draw_panel_header(_layout(self))
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_skin(_layout(self), _mesh(context))
+        draw_skin(_layout(self), _mesh(context), context)
 
 
 class _Biology(_Section):

@@ -1,5 +1,7 @@
 """Whose skin it is, and what lies on it."""
 
+from typing import Any, cast
+
 import bpy
 
 from hylios.errors import InputError
@@ -9,14 +11,22 @@ from ..model.catalogue import FILE
 from ..props import SkinTanSettings, settings_of
 from .lines import draw_lines
 from .masks import draw_mask
+from .swatches import draw_types
 
 
-def draw_skin(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+def draw_skin(
+    layout: bpy.types.UILayout, obj: bpy.types.Object, context: bpy.types.Context
+) -> None:
     settings = settings_of(obj)
+    draw_types(layout, settings.skin)
     layout.prop(settings, "skin", text="")
     if settings.skin == FILE:
         layout.prop(settings, "table_path", text="")
     draw_lines(layout, *skin_lines(settings))
+    row = layout.row(align=True)
+    row.prop(cast(Any, context).scene.skin_tan, "sample", text="")
+    row.operator("skin_tan.match_colour")
+    layout.operator("skin_tan.match_texture", icon="TEXTURE")
     layout.prop(settings, "own_minimal_doses")
     if settings.own_minimal_doses:
         column = layout.column(align=True)

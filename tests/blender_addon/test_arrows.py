@@ -15,6 +15,7 @@ SUBJECTS = {
     "applied.py": {"scene", "props"},
     "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
     "apply.py": {"applied", "timing", "views", "model", "scene", "props", "hylios.errors"},
+    "matching.py": {"apply", "model", "scene", "props", "hylios.errors"},
     "removal.py": {"apply", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "size.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
@@ -23,7 +24,8 @@ SUBJECTS = {
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
     "ops": {
-        *("ops", "apply", "removal", "masking", "timing", "views", "size", "props", "model"),
+        *("ops", "apply", "removal", "masking", "matching", "timing", "views", "size"),
+        *("props", "model"),
         *("hylios.errors", "hylios.files"),
     },
     "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},

@@ -47,7 +47,7 @@ class Layout:
         assert name in data.bl_rna.properties
         assert icon in ICONS
 
-    def operator(self, name, *, text=None, icon="NONE", depress=False):
+    def operator(self, name, *, text=None, icon="NONE", icon_value=0, depress=False):
         assert icon in ICONS
         module, function = name.split(".")
         properties = getattr(getattr(bpy.ops, module), function).get_rna_type().properties

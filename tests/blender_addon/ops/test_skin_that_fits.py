@@ -1,0 +1,103 @@
+"""A skin type by picture, from a colour, and from the colour that a character is painted in."""
+
+import artist_skins
+import bpy
+import numpy as np
+import pytest
+from scenes import apply, tan_object
+
+from blender_addon.model import catalogue
+from blender_addon.model.matching import type_colours
+from blender_addon.ui import swatches
+
+III = catalogue.shipped_path("III")
+
+
+@pytest.fixture
+def body():
+    obj = tan_object(III)
+    obj.skin_tan.skin = "III"
+    return obj
+
+
+def test_a_type_by_picture(body):
+    body.skin_tan.biology.blood = 2.0
+    assert bpy.ops.skin_tan.choose_type(type="V") == {"FINISHED"}
+    assert body.skin_tan.skin == "V" and body.skin_tan.biology.blood == 1.0
+
+
+def test_pictures_have_the_types_colours():
+    pictures = swatches.swatches()
+    assert list(pictures) == list(catalogue.TYPES)
+    for name, colour in type_colours().items():
+        drawn = np.array(pictures[name].icon_pixels_float).reshape(-1, 4)
+        np.testing.assert_allclose(drawn[0, :3], swatches.shown(colour), atol=0.003)
+    swatches.forget_swatches()
+
+
+def test_from_a_colour(body, capfd):
+    assert bpy.ops.skin_tan.match_colour(colour=type_colours()["II"] * 0.97) == {"FINISHED"}
+    assert body.skin_tan.skin == "II"
+    said = capfd.readouterr().out
+    assert "Type II is nearest, 0." in said and "CIEDE2000 away; with melanin 1.0" in said
+    assert bpy.ops.skin_tan.match_colour(colour=type_colours()["V"], adjust=False) == {"FINISHED"}
+    assert body.skin_tan.skin == "V" and not body.skin_tan.biology.is_changed()
+
+
+def test_from_the_scenes_sample(body):
+    bpy.context.scene.skin_tan.sample = type_colours()["IV"]
+    bpy.ops.skin_tan.match_colour()
+    assert body.skin_tan.skin == "IV"
+
+
+def test_from_the_own_texture(body):
+    colours = np.tile(type_colours()["VI"], (4, 4, 1))
+    colours[0, :2] = (0.0, 0.0, 1.0)  # a few texels of something else
+    material = artist_skins.empty_material("Skin")
+    shader = artist_skins.principled(material.node_tree)
+    texture = artist_skins.texture(material.node_tree, colours)
+    material.node_tree.links.new(texture.outputs[0], shader.inputs["Base Color"])
+    artist_skins.output_of(material.node_tree, shader.outputs[0])
+    body.data.materials.append(material)
+    assert bpy.ops.skin_tan.match_texture() == {"FINISHED"}
+    assert body.skin_tan.skin == "VI"
+    apply(body)
+    body.skin_tan.skin = "I"
+    assert bpy.ops.skin_tan.match_texture() == {"FINISHED"}
+    assert body.skin_tan.skin == "VI"
+
+
+def test_without_a_painted_colour_all_stays(body):
+    apply(body)
+    with pytest.raises(RuntimeError, match="No painted colour"):
+        bpy.ops.skin_tan.match_texture()
+    assert body.skin_tan.skin == "III" and not body.skin_tan.biology.is_changed()
+
+
+def test_sensitivity_by_hand_starts_at_the_skins(body):
+    settings = body.skin_tan
+    settings.own_minimal_doses = True
+    told = catalogue.provenance(III)
+    assert settings.mmd == pytest.approx(told["mmd_sed"])
+    assert settings.med == pytest.approx(told["med_sed"])
+    settings.own_minimal_doses, settings.skin = False, "VI"
+    settings.own_minimal_doses = True
+    of_six = catalogue.provenance(catalogue.shipped_path("VI"))
+    assert settings.med == pytest.approx(of_six["med_sed"])
+
+
+def test_sensitivity_that_was_set_stays(body):
+    settings = body.skin_tan
+    settings.mmd, settings.own_minimal_doses = 9.0, True
+    assert settings.mmd == 9.0
+    settings.own_minimal_doses = False
+    settings.own_minimal_doses = True
+    assert settings.mmd == 9.0
+    assert settings.med == pytest.approx(catalogue.provenance(III)["med_sed"])
+
+
+def test_sensitivity_without_a_table_stays_at_its_default(body):
+    settings = body.skin_tan
+    settings.skin, settings.table_path = "FILE", "/nowhere.exr"
+    settings.own_minimal_doses = True
+    assert settings.mmd == 7.0

@@ -1,6 +1,7 @@
 """What the buttons do."""
 
 from .apply import SKIN_TAN_OT_apply, SKIN_TAN_OT_copy_to_selected
+from .csv_files import SKIN_TAN_OT_export_exposures, SKIN_TAN_OT_import_exposures
 from .exposures import (
     SKIN_TAN_OT_add_exposure,
     SKIN_TAN_OT_duplicate_exposure,
@@ -36,6 +37,8 @@ CLASSES = (
     SKIN_TAN_OT_copy_to_selected,
     SKIN_TAN_OT_reset_timing,
     SKIN_TAN_OT_go_to_darkest_day,
+    SKIN_TAN_OT_import_exposures,
+    SKIN_TAN_OT_export_exposures,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_fit_size,
     SKIN_TAN_OT_choose_type,

@@ -42,7 +42,9 @@ class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801
         layout.operator("skin_tan.duplicate_exposure", icon="DUPLICATE")
         layout.operator("skin_tan.copy_to_selected", icon="COPYDOWN")
         layout.separator()
-        layout.operator("skin_tan.export_schedule", icon="EXPORT")
+        layout.operator("skin_tan.import_exposures", icon="IMPORT")
+        layout.operator("skin_tan.export_exposures", icon="EXPORT")
+        layout.operator("skin_tan.export_schedule", text="Export for lut-builder", icon="EXPORT")
 
 
 def draw_exposures(

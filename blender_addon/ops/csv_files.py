@@ -1,0 +1,77 @@
+"""The buttons that read and write the list of exposures as CSV."""
+
+from pathlib import Path
+from typing import Any, cast
+
+import bpy
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from hylios.errors import InputError
+from hylios.files import require_target, written_beside
+
+from ..model.exposures_csv import exposures_text, read_exposures
+from .active import active_mesh, active_settings
+
+
+class SKIN_TAN_OT_export_exposures(bpy.types.Operator, ExportHelper):  # noqa: N801
+    bl_idname = "skin_tan.export_exposures"
+    bl_label = "Export CSV"
+    bl_description = "Save the times in the sun as CSV, with all their settings but the masks"
+    filename_ext = ".csv"
+    filter_glob: bpy.props.StringProperty(default="*.csv", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+    def execute(self, context):
+        path = Path(bpy.path.abspath(cast(Any, self).filepath))
+        try:
+            require_target(path, (".csv",), replacing=True)
+            text = exposures_text(active_settings(context).exposures)
+            with written_beside(path) as beside:
+                beside.write_text(text, encoding="utf-8")
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Saved {path}.")
+        return {"FINISHED"}
+
+
+class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N801
+    bl_idname = "skin_tan.import_exposures"
+    bl_label = "Import CSV"
+    bl_description = (
+        "Read times in the sun from CSV: columns day and SED are enough, a table's own export, or "
+        "what Export CSV has saved"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    filter_glob: bpy.props.StringProperty(default="*.csv;*.txt", options={"HIDDEN"})
+    replace: bpy.props.BoolProperty(
+        name="Replace",
+        description="Remove the times in the sun that are listed, not add to them",
+        default=True,
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+    def execute(self, context):
+        path = Path(bpy.path.abspath(cast(Any, self).filepath))
+        settings = active_settings(context)
+        try:
+            read = read_exposures(path)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if self.replace:
+            settings.exposures.clear()
+        for values in read.exposures:
+            exposure = settings.exposures.add()
+            for name, value in values.items():
+                setattr(exposure, name, value)
+        settings.exposure_index = max(0, len(settings.exposures) - 1)
+        count = len(read.exposures)
+        self.report({"INFO"}, " ".join([f"Read times in the sun: {count}.", *read.remarks]))
+        return {"FINISHED"}

@@ -1,0 +1,44 @@
+"""The example for a farm: a folder of files is tanned."""
+
+import subprocess
+import sys
+
+import bpy
+import pytest
+
+COMMAND = [sys.executable, "-m", "examples.tan_folder"]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=8, ring_count=6)
+    bpy.context.object.name = "Body of Nora"
+    (tmp_path / "in").mkdir()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "in" / "nora.blend"))
+    (tmp_path / "sun.csv").write_text("day,SED\n0,20\n1,10\n")
+    return tmp_path
+
+
+def run(*arguments):
+    return subprocess.run([*COMMAND, *map(str, arguments)], capture_output=True, text=True)
+
+
+def test_a_folder_is_tanned(folder):
+    out = folder / "out"
+    done = run(folder / "in", "--out", out, "--schedule", folder / "sun.csv", "--skin", "II")
+    assert done.returncode == 0, done.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(out / "nora.blend"))
+    body = bpy.data.objects["Body of Nora"]
+    group = next(group for group in bpy.data.node_groups if "skin_tan_layout" in group)
+    assert group.users and body.animation_data.action is not None
+    assert [path.name for path in out.iterdir()] == ["nora.blend"]
+    stamp = (out / "nora.blend").stat().st_mtime_ns
+    run(folder / "in", "--out", out)
+    assert (out / "nora.blend").stat().st_mtime_ns == stamp
+
+
+def test_an_empty_folder_is_said(tmp_path):
+    done = run(tmp_path)
+    assert done.returncode == 2 and "holds no .blend file" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
-from . import applied, timing
+from . import applied, several, timing
 from .model import doses
 from .model.catalogue import table
 from .model.film import film_of
@@ -35,6 +35,7 @@ from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.painted import is_like_skin, painted_colour
 from .scene.plan import LOOK
+from .scene.several import made_images as made_of_masks
 from .views import keep_view, remember_source
 
 
@@ -63,17 +64,19 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     days = values.first_day, values.last_day
     frames = timing.frames(settings, days, scene)
     tan = tan_of(values, rough=rough)
+    of_masks = several.computed(obj, rough=rough)
     with Changes() as changes:
         skin = skins.prepare(obj, replacing=settings.new_material)
         first_version.take_over(skin.group, changes)
         layout_1.take_over(skin.group, skin.trees(), changes)
-        made = nodes.made_images(skin.group)
+        made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
         sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
         replaced = nodes.update(skin.group, sampled, changes)
         mask = settings.shown_mask()
         shown = mask_nodes.shown_mask(obj, mask, changes)
         mask_nodes.show(skin.group, shown, changes)
+        replaced |= several.show(obj, skin.group, of_masks, changes)
         worn = _film(settings.film, sampled.roughness)
         where = film.where(obj, settings.worn_film_mask(), changes)
         film.show(skin.group, skin.trees(), worn, where, sampled.level, changes)
@@ -88,7 +91,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
             images.note_content((sampled.states, sampled.places), source)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
-        said += mask_values.remarks(obj, mask, shown)
+        said += several.remarks(of_masks) if of_masks else mask_values.remarks(obj, mask, shown)
         said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
 
@@ -221,9 +224,6 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
         remarks += _on_film(obj, skin)
     if timeline.is_driven(obj):
         remarks.append("A driver governs the day of the tan, so its keys have no effect.")
-    several = len(set(settings_of(obj).masks()))
-    if several > 1:
-        remarks.append(masks.SEVERAL.format(several))
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")

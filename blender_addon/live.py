@@ -23,8 +23,9 @@ from .apply import apply_tan, tannable
 from .model.history import DRAG, FULL, Precision
 from .model.tan import history_of
 from .props import settings_of
-from .scene import images, nodes
+from .scene import images, nodes, several
 from .scene.ownership import Users
+from .several import has_several
 
 REST_SECONDS = 0.3
 """After so long without a change, a tan is made exact."""
@@ -94,8 +95,8 @@ def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Pr
             if applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
                 show_schedule(obj, scene, precision)
             else:
-                is_rough = precision is DRAG and settings_of(obj).biology.is_changed()
-                apply_tan(obj, scene, rough=is_rough)
+                takes_longer = settings_of(obj).biology.is_changed() or has_several(obj)
+                apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
                 has_applied = True
         except InputError:
             pass  # Apply says why, when the artist wants to know
@@ -140,8 +141,10 @@ def _restore(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
 
 
 def _is_alone(obj: bpy.types.Object) -> bool:
-    """Whether an object's history is shown by it alone, in the images that Apply made."""
+    """Whether an object shows its history alone, in the images that Apply made for one mask."""
     group = settings_of(obj).group
+    if has_several(obj) or several.is_shown(group):
+        return False
     return nodes.own_history(group) is not None and not Users().others(group, obj)
 
 

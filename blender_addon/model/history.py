@@ -185,7 +185,6 @@ def _thinned(
 
 
 def _filled(values: NDArray[np.float32], rows: int, columns: int) -> NDArray[np.float32]:
-    """Values (T, S, 3) in the first rows and columns of an image of a fixed size."""
-    image = np.zeros((rows, columns, 3), np.float32)
-    image[: len(values), : values.shape[1]] = values
-    return image
+    """Values (T, S, 3) in an image of a fixed size, whose last row and column are repeated."""
+    more = ((0, rows - len(values)), (0, columns - values.shape[1]), (0, 0))
+    return np.pad(values, more, mode="edge")

@@ -1,8 +1,11 @@
 """A tan as arrays that a shader samples: where the skin stands, and what it looks like there."""
 
 import functools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from numpy.typing import NDArray
 
 from hylios.errors import InputError
 from hylios.skin.biology import Biology
@@ -10,6 +13,8 @@ from hylios.sun.doses import Doses
 from hylios.table import MinimalDoses, SkinTable, melanin_dynamics
 
 from . import catalogue, doses
+from .basis import FULL as FULL_BASIS
+from .basis import Basis, BasisPrecision, basis
 from .biology import table_with
 from .history import FULL, History, Precision, history
 from .look import Look, look
@@ -135,12 +140,59 @@ def history_within(
         last_day=days[1],
         precision=precision,
     )
+    _require_held(table, states)
+    return over_time
+
+
+def basis_of(
+    settings: TanSettings,
+    which: Sequence[int],
+    shares: NDArray,
+    precision: BasisPrecision = FULL_BASIS,
+) -> Basis:
+    """The coordinates of points whose exposures have several masks.
+
+    Parameters
+    ----------
+    which : sequence of int
+        Mask of every exposure of the settings.
+    shares : (N, M) array
+        Of the doses under every mask.
+
+    Raises
+    ------
+    InputError
+        As `history_of`, or if there are too many masks.
+    """
+    table = catalogue.table(settings.table)
+    minimal = settings.minimal_doses(table.provenance)
+    told = list(zip(settings.exposures, which, strict=True))
+    by_mask = [
+        doses.received(
+            [exposure for exposure, own in told if own == mask], minimal.mmd, table.provenance
+        )
+        for mask in range(shares.shape[1])
+    ]
+    made, states = basis(
+        by_mask,
+        shares,
+        melanin_dynamics(table.provenance),
+        mmd=minimal.mmd,
+        med=minimal.med,
+        first_day=settings.first_day,
+        last_day=settings.last_day,
+        precision=precision,
+    )
+    _require_held(table, states)
+    return made
+
+
+def _require_held(table: SkinTable, states: NDArray) -> None:
     if not table.holds(states).all():
         raise InputError(
             "the table was built for another schedule of sun and lacks tans of this one; build it "
             "with this schedule (Export Schedule) or with none."
         )
-    return over_time
 
 
 def darkest_day(history: History) -> float:

@@ -134,15 +134,15 @@ def prefixed(
 def show_at_once(obj: bpy.types.Object, mask: Mask) -> bool:
     """Have a tan that is there show another mask, without Apply; whether it does.
 
-    It does not where other objects show the tan's nodes too, where the mask cannot be used, or
-    while Blender renders.
+    It does not where other objects show the tan's nodes too, where the mask cannot be used, where
+    the tan shows several, or while Blender renders.
     """
     group = remembered(obj).group
     if group is None or group.get(LAYOUT_KEY) != LAYOUT or bpy.app.is_job_running("RENDER"):
         return False
     if not (is_local(group) and is_local(cast(bpy.types.ID, obj.data))):
         return False
-    if Users().others(group, obj):
+    if Users().others(group, obj) or any(of_role(group, "basis")):
         return False
     try:
         with Changes() as changes:

@@ -47,10 +47,6 @@ COPIES_KEY = "skin_tan_copies"
 """Custom property of a mesh: by the names of attributes that this add-on made, the vertex groups
 of which they are copies, as JSON."""
 
-SEVERAL = (
-    "The exposures have {} masks; a tan shows one so far, so the object's counts for all of them."
-)
-
 
 @dataclass(frozen=True)
 class Mask:
@@ -123,11 +119,11 @@ class Source:
 def usable_sources(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None) -> list[Source]:
     """All that can be a mask of a mesh object, attributes that modifiers make among them."""
     mesh = _mesh(obj)
-    copies = mesh.get(COPIES_KEY, "")
+    copies, basis = mesh.get(COPIES_KEY, ""), mesh.get("skin_tan_basis", "")
     listed = [
         Source("ATTRIBUTE", item.name, item.data_type, item.domain)
         for item in mesh.attributes
-        if _is_offered(item) and f'"{item.name}":' not in copies
+        if _is_offered(item) and f'"{item.name}":' not in copies and f'"{item.name}"' not in basis
     ]
     taken = {source.name for source in listed}
     listed += [

@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import bpy
 
-from . import detail, nodes, recolour, slots, vertex_groups, views
+from . import detail, nodes, recolour, several, slots, vertex_groups, views
 from .alike import alike
 from .changes import Changes
 from .images import MARK
@@ -50,7 +50,8 @@ def take_off(obj: bpy.types.Object, changes: Changes) -> list[str]:
         changes.set(settings, "material", None)
     changes.set(settings, "group", None)
     vertex_groups.remove_own(obj, changes)
-    made = [] if group is None else nodes.made_images(group)
+    made = [] if group is None else [*nodes.made_images(group), *several.made_images(group)]
+    several.remove_attributes(obj, group, changes)
     if own is not None and MADE in own:
         changes.at_the_end(partial(_remove_unused, [own]))
     changes.at_the_end(partial(_remove_group, group, made))
@@ -171,6 +172,7 @@ def _is_valid(block: Any) -> bool:
 def _remove_group(group: Any, made: list[bpy.types.Image]) -> None:
     """Remove a tan's group and its images, and the relief of skin, where nothing shows them."""
     if group is not None and _is_valid(group) and group.users == 0:
+        several.remove_nodes(group)
         bpy.data.node_groups.remove(group)
     for image in dict.fromkeys(made):
         if image.users == 0 and MARK in image:

@@ -103,7 +103,7 @@ def new_attribute(
     if made is None:
         raise InputError(f"Blender makes no attribute {name!r} on the mesh {mesh.name!r}.")
     name = made.name
-    changes.on_failure(_remove, mesh, name)
+    changes.on_failure(remove_attribute, mesh, name)
     return name
 
 
@@ -121,7 +121,7 @@ def remove_own(obj: bpy.types.Object, changes: Changes) -> None:
     }
     left = {attribute: group for attribute, group in copies.items() if group in needed}
     for attribute in set(copies) - set(left):
-        changes.at_the_end(partial(_remove, mesh, attribute))
+        changes.at_the_end(partial(remove_attribute, mesh, attribute))
     if left:
         changes.set_key(mesh, COPIES_KEY, json.dumps(left))
     else:
@@ -171,7 +171,8 @@ def _write(mesh: bpy.types.Mesh, name: str, values: NDArray[np.float32]) -> None
     mesh.update_tag()
 
 
-def _remove(mesh: bpy.types.Mesh, name: str) -> None:
+def remove_attribute(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove an attribute, if it is there."""
     attributes: Any = mesh.attributes
     if name in attributes:
         attributes.remove(attributes[name])

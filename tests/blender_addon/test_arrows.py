@@ -13,8 +13,11 @@ SUBJECTS = {
     "masking.py": {"scene", "props", "hylios.errors"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
     "applied.py": {"scene", "props"},
-    "live.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
-    "apply.py": {"applied", "timing", "views", "model", "scene", "props", "hylios.errors"},
+    "live.py": {"applied", "apply", "several", "model", "scene", "props", "hylios.errors"},
+    "apply.py": {
+        *("applied", "several", "timing", "views", "model", "scene", "props", "hylios.errors"),
+    },
+    "several.py": {"model", "scene", "props"},
     "matching.py": {"apply", "model", "scene", "props", "hylios.errors"},
     "removal.py": {"apply", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},

@@ -26,17 +26,20 @@ def untanned_colour(table: SkinTable) -> NDArray[np.float64]:
     return table.plane(COLOUR, np.append(steady / steady.sum(), 1.0))
 
 
+def type_colours() -> dict[str, NDArray[np.float64]]:
+    """Colours (3,) of the shipped skin types without sun, by name, from very light to dark."""
+    types = [table for table in catalogue.SHIPPED if table.name in catalogue.TYPES]
+    colours = {table.name: _untanned(table.path, *catalogue.stamp(table.path)) for table in types}
+    return {name: np.array(own) for name, own in colours.items() if own}
+
+
 def nearest_type(colour: ArrayLike) -> tuple[str, float] | None:
     """The shipped skin type that comes nearest to a linear colour (3,), and its CIEDE2000 to it.
 
     None where no type is shipped.
     """
-    types = [table for table in catalogue.SHIPPED if table.name in catalogue.TYPES]
-    colours = {table.name: _untanned(table.path, *catalogue.stamp(table.path)) for table in types}
     wanted = lab(np.asarray(colour, dtype=float))
-    away = {
-        name: float(ciede2000(lab(np.array(own)), wanted)) for name, own in colours.items() if own
-    }
+    away = {name: float(ciede2000(lab(own), wanted)) for name, own in type_colours().items()}
     nearest = min(away, key=away.__getitem__, default=None)
     return None if nearest is None else (nearest, away[nearest])
 

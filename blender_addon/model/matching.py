@@ -1,6 +1,5 @@
 """Which skin type, and which biology of it, comes nearest to a colour."""
 
-import functools
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +14,7 @@ from hylios.skin.biology import RANGES, Biology
 from hylios.table import skin_of
 
 from . import catalogue
+from .fitting import nearest_type
 
 STEPS = 8
 """Steps of Gauss and Newton's method towards a colour."""
@@ -45,22 +45,6 @@ class Match:
     left: float
 
 
-def type_colours() -> dict[str, NDArray[np.float64]]:
-    """Linear Rec.709 (3,) of light that has been inside, of each type without sun, by name."""
-    shipped = {table.name: table.path for table in catalogue.SHIPPED if not table.problem}
-    return {
-        name: _untanned(shipped[name], catalogue.stamp(shipped[name]))
-        for name in catalogue.TYPES
-        if name in shipped
-    }
-
-
-@functools.lru_cache(maxsize=16)
-def _untanned(path, stamp: tuple[int, int]) -> NDArray[np.float64]:
-    table = catalogue.table(path)
-    return table.plane("subsurface_colour", skin_of(table.provenance).untanned_state)
-
-
 def nearest(colour: NDArray[np.float64]) -> Match:
     """The skin nearest to a linear Rec.709 colour (3,), as painted: without the surface's gloss.
 
@@ -72,15 +56,14 @@ def nearest(colour: NDArray[np.float64]) -> Match:
     colour = np.asarray(colour, dtype=float)
     if not np.all((colour >= 0.0) & (colour <= 1.0)):
         raise InputError(f"the colour is {colour.round(3).tolist()}; allowed is 0 to 1 in each.")
-    types = type_colours()
-    if not types:
+    fitting = nearest_type(colour)
+    if fitting is None:
         raise InputError("this add-on comes with no skin type; install it anew.")
-    distances = {name: float(ciede2000(lab(own), lab(colour))) for name, own in types.items()}
-    skin = min(distances, key=distances.__getitem__)
+    skin, distance = fitting
     biology, left = _towards(colour, skin_of(catalogue.provenance(catalogue.shipped_path(skin))))
-    if left >= distances[skin]:
-        biology, left = Biology(), distances[skin]
-    return Match(skin, distances[skin], biology, left)
+    if left >= distance:
+        biology, left = Biology(), distance
+    return Match(skin, distance, biology, left)
 
 
 def _towards(colour: NDArray[np.float64], skin: Skin) -> tuple[Biology, float]:

@@ -34,7 +34,7 @@ class SkinTanScene(bpy.types.PropertyGroup):
         description="A colour of skin without sun and without gloss, to find the type that is "
         "nearest. Pick it from a painted texture or a photo in even light",
         subtype="COLOR",
-        default=(0.45, 0.25, 0.17),
+        default=(0.37, 0.23, 0.14),
         min=0.0,
         max=1.0,
     )

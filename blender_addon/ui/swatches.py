@@ -6,7 +6,7 @@ from typing import Any
 import bpy.utils.previews
 import numpy as np
 
-from ..model.matching import type_colours
+from ..model.fitting import type_colours
 
 SIDE = 32
 """Pixels along a side."""

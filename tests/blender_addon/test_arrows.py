@@ -18,7 +18,7 @@ SUBJECTS = {
         *("applied", "several", "timing", "views", "model", "scene", "props", "hylios.errors"),
     },
     "several.py": {"model", "scene", "props"},
-    "matching.py": {"apply", "model", "scene", "props", "hylios.errors"},
+    "matching.py": {"apply", "model", "props", "hylios.errors"},
     "removal.py": {"apply", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "size.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from blender_addon.model import catalogue
-from blender_addon.model.matching import nearest, type_colours
+from blender_addon.model.fitting import type_colours
+from blender_addon.model.matching import nearest
 from hylios.adding import colours
 from hylios.errors import InputError
 from hylios.skin.biology import Biology

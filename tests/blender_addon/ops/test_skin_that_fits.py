@@ -7,7 +7,7 @@ import pytest
 from scenes import apply, tan_object
 
 from blender_addon.model import catalogue
-from blender_addon.model.matching import type_colours
+from blender_addon.model.fitting import type_colours
 from blender_addon.ui import swatches
 
 III = catalogue.shipped_path("III")

@@ -6,6 +6,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
+from artist_skins import layered
 from scenes import add_camera, add_mask, read_pixels, render, tan_object, white_world
 
 FRAMES = (1, 90)
@@ -27,14 +28,19 @@ assert not {"blender_addon", "hylios", "lut_builder"} & set(sys.modules)
 """
 
 
-@pytest.mark.parametrize("view", ["VISIBLE", "NM365"])
-def test_the_render_needs_no_add_on(tmp_path, table_path, view):
+@pytest.mark.parametrize(
+    ("view", "materials"), [("VISIBLE", ()), ("NM365", ()), ("VISIBLE", (layered,))]
+)
+def test_the_render_needs_no_add_on(tmp_path, table_path, view, materials):
+    """With a material of ours, and with one of the artist's, recoloured in its groups."""
     settings = tan_object(table_path).skin_tan
     bpy.ops.mesh.primitive_monkey_add()
     body = bpy.context.object
     body.skin_tan.skin, body.skin_tan.table_path = "FILE", settings.table_path
     body.skin_tan.exposures.add().dose = 30.0
     body.skin_tan.film = "OIL"
+    for make in materials:
+        body.data.materials.append(make("skin"))
     add_mask(body, [1.0 if vertex.co.x > 0 else 0.0 for vertex in body.data.vertices])
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     bpy.context.scene.skin_tan.view = view

@@ -8,9 +8,8 @@ from hylios.errors import InputError
 
 from . import applied, several, timing
 from .model import doses
-from .model.catalogue import table
 from .model.film import film_of
-from .model.fitting import untanned_colour
+from .model.look import untanned_colour
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
@@ -83,7 +82,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         remember_source(skin.group, settings, values, tan, changes)
         attached = skin.attach(changes)
         in_view = keep_view(skin.group, skin.trees(), changes)
-        skin.set_viewport_colour(untanned_colour(table(values.table)), changes)
+        skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
         if not rough:

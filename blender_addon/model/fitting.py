@@ -8,22 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.colour_difference import ciede2000, lab
 from hylios.errors import InputError
-from hylios.table import SkinTable, melanin_dynamics
+from hylios.table import melanin_dynamics
 
 from . import catalogue
 from .look import COLOUR
-
-
-def untanned_colour(table: SkinTable) -> NDArray[np.float64]:
-    """Linear colour (3,) of a table's skin without sun: of light that has been inside it.
-
-    Raises
-    ------
-    InputError
-        If the table does not say how its skin makes melanin, or has no colour.
-    """
-    steady = melanin_dynamics(table.provenance).steady_state()
-    return table.plane(COLOUR, np.append(steady / steady.sum(), 1.0))
 
 
 def type_colours() -> dict[str, NDArray[np.float64]]:
@@ -47,6 +35,8 @@ def nearest_type(colour: ArrayLike) -> tuple[str, float] | None:
 @functools.lru_cache(maxsize=16)
 def _untanned(path: Path, modified: int, size: int) -> tuple[float, ...] | None:
     try:
-        return tuple(untanned_colour(catalogue.table(path)).tolist())
+        table = catalogue.table(path)
+        steady = melanin_dynamics(table.provenance).steady_state()
     except InputError:
         return None
+    return tuple(table.plane(COLOUR, np.append(steady / steady.sum(), 1.0)).tolist())

@@ -137,6 +137,18 @@ def look(table: SkinTable, minimal: MinimalDoses) -> Look:
     )
 
 
+def untanned_colour(look: Look) -> NDArray[np.float64]:
+    """Linear Rec.709 colour (3,) of a look's skin without sun."""
+    rows, columns, _ = look.colour.shape
+    low, high = look.blood
+    row = -low / (high - low) * (rows // 2 - 1) if high > low else 0.0
+    roots = np.linspace(*look.melanin, columns)
+    below, part = int(row), row - int(row)
+    above = min(below + 1, rows // 2 - 1)
+    line = look.colour[below] * (1.0 - part) + look.colour[above] * part
+    return np.array([np.interp(1.0, roots, line[:, channel]) for channel in range(3)])
+
+
 @dataclass(frozen=True, eq=False)
 class Grid:
     """Where the images of a look lie in a table.

@@ -22,8 +22,7 @@ from artist_skins import (
 from scenes import add_camera, apply, render, tan_group, tan_groups, tan_object, white_world
 from synthetic import UNTANNED_COLOUR
 
-from blender_addon.model import catalogue
-from blender_addon.model.fitting import untanned_colour
+from blender_addon.model.fitting import type_colours
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate
 
 
@@ -315,8 +314,7 @@ def painted_body(colour):
 
 @pytest.mark.parametrize("name", ["I", "III", "VI"])
 def test_the_first_apply_takes_the_type_nearest_to_the_painted_colour(name, capfd):
-    colour = untanned_colour(catalogue.table(catalogue.shipped_path(name)))
-    obj = painted_body(tuple(colour))
+    obj = painted_body(tuple(type_colours()[name]))
     assert apply() == {"FINISHED"}
     assert obj.skin_tan.skin == name
     assert f"Of the skin types, {name} is nearest to the painted colour." in capfd.readouterr().out

@@ -29,6 +29,7 @@ def register():
 
 def unregister():
     ui.forget_swatches()
+    ui.forget_curve()
     painting.unregister()
     live.unregister()
     bpy.utils.unregister_preset_path(FOLDER)

@@ -9,6 +9,7 @@ from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
 from ..scene.timeline import shown_day
 from .biology import draw_biology
+from .curve import draw_curve
 from .exposures import draw_exposures
 from .masks import draw_object_mask
 from .materials import draw_materials
@@ -48,6 +49,7 @@ class _Main:
             layout.label(text=f"This frame shows day {day:.1f}", icon="TIME")
         if settings.group is None:
             return
+        draw_curve(layout, settings)
         layout.prop(settings, "live")
         if is_changed(obj, current_scene(context)) and not settings.live:
             layout.label(text="Changed: Apply Tan shows it", icon="ERROR")

@@ -60,6 +60,9 @@ class Layout:
         kind = getattr(bpy.types, name)
         kind.draw(Panel(self.labels), bpy.context)
 
+    def template_icon(self, icon_value, *, scale):
+        assert icon_value >= 0 and scale > 1.0
+
     def popover(self, *, panel, icon, text):
         assert icon in ICONS and hasattr(bpy.types, panel)
 

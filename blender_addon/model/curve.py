@@ -1,0 +1,145 @@
+"""How bare skin goes over the days of a tan: in numbers, in words and as a picture."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hylios.colour_difference import lab
+from hylios.table import melanin_dynamics
+from hylios.tanning.spread import spread_of
+
+from . import catalogue
+from .biology import table_with
+from .history import DRAG, History
+from .settings import TanSettings
+from .tan import history_of
+
+POINTS = 121
+"""Days at which the curve is computed."""
+
+COLOUR = "total_colour"
+"""Plane of a table that says how skin looks, gloss included."""
+
+PLAIN = 0.3
+"""Change of L* below which nobody sees a tan."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A tan of bare skin over its days.
+
+    Attributes
+    ----------
+    days : (N,) array
+    colours : (N, 3) array
+        Linear Rec.709 albedo, seen straight on.
+    lightness : (N,) array
+        CIE L*.
+    untanned : float
+        L* without sun.
+    """
+
+    days: NDArray[np.float64]
+    colours: NDArray[np.float64]
+    lightness: NDArray[np.float64]
+    untanned: float
+
+    @property
+    def darkest(self) -> int:
+        """Index of the darkest day."""
+        return int(self.lightness.argmin())
+
+    @property
+    def half_gone(self) -> float | None:
+        """The day by which half of the darkening is gone; None if it is not gone by the last."""
+        half = 0.5 * (self.untanned + self.lightness[self.darkest])
+        after = self.lightness[self.darkest :]
+        light = np.flatnonzero(after >= half)
+        if not len(light):
+            return None
+        index = self.darkest + int(light[0])
+        low, high = self.lightness[index - 1], self.lightness[index]
+        part = (half - low) / (high - low)
+        return float(self.days[index - 1] + part * (self.days[index] - self.days[index - 1]))
+
+
+def table_stamp(settings: TanSettings) -> tuple[int, int]:
+    """Numbers that change with the table's file; errors as in `catalogue.stamp`."""
+    return catalogue.stamp(settings.table)
+
+
+def curve_of(settings: TanSettings) -> Curve:
+    """The curve of an object's settings.
+
+    Raises
+    ------
+    InputError
+        If a setting or the table cannot be used.
+    """
+    history = history_of(settings, DRAG)
+    table = table_with(settings.table, settings.biology, rough=True)
+    minimal = settings.minimal_doses(table.provenance)
+    days = np.linspace(settings.first_day, settings.last_day, POINTS)
+    coordinates = np.concatenate([np.zeros((1, 3)), _of_bare_skin(history, days)])
+    spread = spread_of(melanin_dynamics(table.provenance), mmd=minimal.mmd, med=minimal.med)
+    colours = table.lookup(spread.states(*coordinates.T), [COLOUR])[COLOUR]
+    lightness = lab(colours)[:, 0]
+    return Curve(days, colours[1:], lightness[1:], float(lightness[0]))
+
+
+def _of_bare_skin(history: History, days: NDArray) -> NDArray[np.float64]:
+    """Coordinates (N, 3) of skin that gets all of the dose."""
+    places = history.places[0, :, 1]
+    passed = (days - history.first_day) / (history.last_day - history.first_day)
+    place = np.interp(passed, np.linspace(0.0, 1.0, len(places)), places)
+    bare = history.coordinates[:, -1]
+    rows = place * len(bare) - 0.5
+    return np.stack([np.interp(rows, np.arange(len(bare)), bare[:, k]) for k in range(3)], axis=1)
+
+
+def words(curve: Curve) -> tuple[str, ...]:
+    """Short lines for an artist."""
+    darkest = curve.darkest
+    if curve.untanned - curve.lightness[darkest] < PLAIN:
+        return ("No tan that can be seen",)
+    first = f"Darkest on day {curve.days[darkest]:.0f},"
+    half = curve.half_gone
+    if half is None:
+        return (first, f"not half gone by day {curve.days[-1]:.0f}")
+    return (first, f"half gone by day {half:.0f}")
+
+
+WIDTH, HEIGHT, STRIP = 240, 150, 26
+"""Pixels of the picture, and of the colours along its lower edge."""
+
+MARGIN = 6
+LINE = np.array([0.95, 0.6, 0.3, 1.0])
+GRID = np.array([0.5, 0.5, 0.5, 0.45])
+"""Colours that stand out from a dark and from a light theme; sRGB and opacity."""
+
+
+def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
+    """The curve over its colours (HEIGHT, WIDTH, 4), sRGB from 0 to 1, the first row at the bottom.
+
+    Parameters
+    ----------
+    shown : (N, 3) array
+        The curve's colours as a screen shows them, sRGB.
+    """
+    pixels = np.zeros((HEIGHT, WIDTH, 4), np.float32)
+    columns = np.linspace(0.0, len(curve.days) - 1.0, WIDTH)
+    pixels[:STRIP, :, :3] = shown[np.round(columns).astype(int)]
+    pixels[:STRIP, :, 3] = 1.0
+    low, high = STRIP + MARGIN, HEIGHT - MARGIN
+    span = max(curve.untanned - curve.lightness.min(), 1.0)
+    lightness = np.interp(columns, np.arange(len(curve.days)), curve.lightness)
+    height = high - (curve.untanned - lightness) / span * (high - low)
+    rows = np.arange(HEIGHT)[:, None]
+    pixels[high - 1 : high + 1] = GRID  # skin without sun
+    for week in np.arange(np.ceil(curve.days[0] / 7.0) * 7.0, curve.days[-1], 7.0):
+        column = (week - curve.days[0]) / (curve.days[-1] - curve.days[0]) * (WIDTH - 1)
+        pixels[low:high, int(column)] = GRID
+    slope = np.hypot(1.0, np.gradient(height))
+    covered = np.clip(1.8 - abs(rows - height) / slope, 0.0, 1.0)[..., None]
+    return (pixels * (1.0 - covered) + LINE * covered).astype(np.float32)

@@ -1,0 +1,71 @@
+"""The curve of a tan: what it says is what the table and the tanning model say."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from blender_addon.model import catalogue, curve
+from blender_addon.model.settings import Exposure, TanSettings
+from hylios.colour_difference import lab
+from hylios.skin.phototypes import phototype
+from hylios.tanning import Exposures, states_at
+
+EXPOSURE = Exposure(
+    day=0.0,
+    unit="SED",
+    dose=25.0,
+    multiple=2.0,
+    uv_index=8.0,
+    duration=2.0,
+    latitude=40.0,
+    month=7,
+    day_of_month=15,
+    from_hour=11.0,
+    to_hour=15.0,
+    sunscreen=False,
+    spf=30.0,
+    sunscreen_amount=2.0,
+)
+SETTINGS = TanSettings(
+    table=catalogue.shipped_path("III"),
+    own_doses=None,
+    exposures=(EXPOSURE,),
+    first_day=0.0,
+    last_day=60.0,
+)
+
+
+def test_lightness_is_that_of_the_table_at_the_simulated_state():
+    made = curve.curve_of(SETTINGS)
+    skin, table = phototype("III").skin, catalogue.table(SETTINGS.table)
+    hours = np.round(24.0 * made.days).astype(int)
+    states = states_at(Exposures([0], [25.0]), skin.dynamics, hours, mmd=skin.mmd, med=skin.med)
+    expected = lab(table.lookup(states, ["total_colour"])["total_colour"])[..., 0]
+    np.testing.assert_allclose(made.lightness, expected.ravel(), atol=0.15)
+
+
+def test_words_name_the_darkest_day_and_the_day_by_which_half_is_gone():
+    made = curve.curve_of(SETTINGS)
+    half = 0.5 * (made.untanned + made.lightness.min())
+    assert made.half_gone is not None and made.half_gone > made.days[made.darkest]
+    assert np.interp(made.half_gone, made.days, made.lightness) == pytest.approx(half, abs=0.01)
+    darkest, gone = curve.words(made)
+    assert darkest == f"Darkest on day {made.days[made.darkest]:.0f},"
+    assert gone == f"half gone by day {made.half_gone:.0f}"
+    short = curve.curve_of(replace(SETTINGS, last_day=12.0))
+    assert curve.words(short)[1] == "not half gone by day 12"
+    none = curve.curve_of(replace(SETTINGS, exposures=()))
+    assert curve.words(none) == ("No tan that can be seen",)
+
+
+def test_the_picture_shows_the_colours_and_the_line():
+    made = curve.curve_of(SETTINGS)
+    pixels = curve.picture(made, made.colours)
+    assert pixels.shape == (curve.HEIGHT, curve.WIDTH, 4)
+    assert pixels.min() >= 0.0 and pixels.max() <= 1.0
+    np.testing.assert_allclose(pixels[0, 0, :3], made.colours[0], atol=1e-6)
+    np.testing.assert_allclose(pixels[0, -1, :3], made.colours[-1], atol=1e-6)
+    line = np.abs(pixels - curve.LINE.astype(np.float32)).sum(axis=-1).argmin(axis=0)
+    darkest = int(made.darkest / (len(made.days) - 1) * (curve.WIDTH - 1))
+    assert abs(int(line.argmin()) - darkest) < 0.1 * curve.WIDTH

@@ -53,15 +53,22 @@ class Curve:
     @property
     def half_gone(self) -> float | None:
         """The day by which half of the darkening is gone; None if it is not gone by the last."""
-        half = 0.5 * (self.untanned + self.lightness[self.darkest])
-        after = self.lightness[self.darkest :]
-        light = np.flatnonzero(after >= half)
-        if not len(light):
+        return self._lighter_from(0.5 * (self.untanned + self.lightness[self.darkest]))
+
+    @property
+    def gone(self) -> float | None:
+        """The day from which on no tan is seen; None if one still is on the last."""
+        return self._lighter_from(self.untanned - PLAIN)
+
+    def _lighter_from(self, least: float) -> float | None:
+        """The day from which on skin stays lighter than that, after the darkest."""
+        dark = np.flatnonzero(self.lightness[self.darkest :] < least)
+        last = self.darkest + int(dark[-1]) if dark.size else self.darkest
+        if not dark.size or last == len(self.days) - 1:
             return None
-        index = self.darkest + int(light[0])
-        low, high = self.lightness[index - 1], self.lightness[index]
-        part = (half - low) / (high - low)
-        return float(self.days[index - 1] + part * (self.days[index] - self.days[index - 1]))
+        low, high = self.lightness[last : last + 2]
+        day, after = self.days[last : last + 2]
+        return float(day + (least - low) / (high - low) * (after - day))
 
 
 def table_stamp(settings: TanSettings) -> tuple[int, int]:
@@ -107,7 +114,8 @@ def words(curve: Curve) -> tuple[str, ...]:
     half = curve.half_gone
     if half is None:
         return (first, f"not half gone by day {curve.days[-1]:.0f}")
-    return (first, f"half gone by day {half:.0f}")
+    gone = f", gone by day {curve.gone:.0f}" if curve.gone is not None else ""
+    return (first, f"half gone by day {half:.0f}{gone}")
 
 
 WIDTH, HEIGHT, STRIP = 240, 150, 26

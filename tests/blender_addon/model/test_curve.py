@@ -40,7 +40,9 @@ def test_lightness_is_that_of_the_table_at_the_simulated_state():
     made = curve.curve_of(SETTINGS)
     skin, table = phototype("III").skin, catalogue.table(SETTINGS.table)
     hours = np.round(24.0 * made.days).astype(int)
-    states = states_at(Exposures([0], [25.0]), skin.dynamics, hours, mmd=skin.mmd, med=skin.med)
+    states = states_at(
+        Exposures([0], [25.0]), skin.dynamics, times=hours, mmd=skin.mmd, med=skin.med
+    )
     expected = lab(table.lookup(states, ["total_colour"])["total_colour"])[..., 0]
     np.testing.assert_allclose(made.lightness, expected.ravel(), atol=0.15)
 
@@ -52,11 +54,24 @@ def test_words_name_the_darkest_day_and_the_day_by_which_half_is_gone():
     assert np.interp(made.half_gone, made.days, made.lightness) == pytest.approx(half, abs=0.01)
     darkest, gone = curve.words(made)
     assert darkest == f"Darkest on day {made.days[made.darkest]:.0f},"
-    assert gone == f"half gone by day {made.half_gone:.0f}"
+    assert gone == f"half gone by day {made.half_gone:.0f}, gone by day {made.gone:.0f}"
+    left = made.untanned - np.interp([made.gone, 60.0], made.days, made.lightness)
+    assert left[0] == pytest.approx(curve.PLAIN, abs=0.01) and left[1] < curve.PLAIN
+    longer = curve.curve_of(replace(SETTINGS, last_day=35.0))
+    assert longer.gone is None and "gone by day 35" not in curve.words(longer)[1]
     short = curve.curve_of(replace(SETTINGS, last_day=12.0))
     assert curve.words(short)[1] == "not half gone by day 12"
     none = curve.curve_of(replace(SETTINGS, exposures=()))
     assert curve.words(none) == ("No tan that can be seen",)
+
+
+def test_half_is_gone_for_good():
+    """Not where a second exposure makes the skin darker again."""
+    again = replace(EXPOSURE, day=33.0, dose=22.0)
+    twice = curve.curve_of(replace(SETTINGS, exposures=(EXPOSURE, again), last_day=90.0))
+    half = 0.5 * (twice.untanned + twice.lightness.min())
+    later = twice.lightness[twice.days > twice.half_gone]
+    assert twice.half_gone > 43.0 and np.all(later > half)
 
 
 def test_the_picture_shows_the_colours_and_the_line():

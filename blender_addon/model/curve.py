@@ -118,7 +118,7 @@ def words(curve: Curve) -> tuple[str, ...]:
     return (first, f"half gone by day {half:.0f}{gone}")
 
 
-WIDTH, HEIGHT, STRIP = 240, 150, 26
+WIDTH, HEIGHT, STRIP = 240, 200, 36
 """Pixels of the picture, and of the colours along its lower edge."""
 
 MARGIN = 6

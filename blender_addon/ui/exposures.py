@@ -31,7 +31,7 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
             split.prop(item, "name", text="", emboss=False)
         else:
             split.label(text=summary.of_exposure(Exposure.of(item)))
-        split.prop(item, "day", text="Day", emboss=False)
+        split.label(text=f"Day {item.day:g}")
 
 
 class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801

@@ -11,6 +11,7 @@ from .scene.changes import Changes
 from .scene.day_removal import remove_day
 from .scene.plan import DAY_PROPERTY
 from .scene.removal import take_off
+from .scene.vertex_groups import remove_own
 
 
 def has_tan(obj: bpy.types.Object) -> bool:
@@ -40,6 +41,7 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
     settings = settings_of(obj)
     with Changes() as changes:
         said = take_off(obj, changes)
+        remove_own(obj, changes)
         if not keep_timing:
             said += remove_day(obj, changes)
             changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))

@@ -4,6 +4,7 @@ A mask reads one number m, 0 under cloth and 1 on bare skin, from a vertex group
 image. The share of the dose is 1 - strength (1 - m), with 1 - m for m where it is inverted.
 """
 
+import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields
 from typing import Any, cast
@@ -119,11 +120,10 @@ class Source:
 def usable_sources(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None) -> list[Source]:
     """All that can be a mask of a mesh object, attributes that modifiers make among them."""
     mesh = _mesh(obj)
-    copies, basis = mesh.get(COPIES_KEY, ""), mesh.get("skin_tan_basis", "")
     listed = [
         Source("ATTRIBUTE", item.name, item.data_type, item.domain)
         for item in mesh.attributes
-        if _is_offered(item) and f'"{item.name}":' not in copies and f'"{item.name}"' not in basis
+        if _is_offered(item) and not _is_own(mesh, item.name)
     ]
     taken = {source.name for source in listed}
     listed += [
@@ -251,6 +251,12 @@ def _is_offered(attribute: bpy.types.Attribute) -> bool:
         and not attribute.is_internal
         and attribute.name not in RESERVED | BUILT_IN
     )
+
+
+def _is_own(mesh: bpy.types.Mesh, name: str) -> bool:
+    """Whether this add-on made an attribute for its shader."""
+    quoted = json.dumps(name)
+    return f"{quoted}:" in mesh.get(COPIES_KEY, "") or quoted in mesh.get("skin_tan_basis", "")
 
 
 def _images() -> Iterator[bpy.types.Image]:

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from artist_skins import layered
-from scenes import add_camera, add_mask, read_pixels, render, tan_object, white_world
+from scenes import add_camera, read_pixels, render, tan_object, white_world
 
 FRAMES = (1, 90)
 SCRIPT = """
@@ -41,7 +41,9 @@ def test_the_render_needs_no_add_on(tmp_path, table_path, view, materials):
     body.skin_tan.film = "OIL"
     for make in materials:
         body.data.materials.append(make("skin"))
-    add_mask(body, [1.0 if vertex.co.x > 0 else 0.0 for vertex in body.data.vertices])
+    bare = body.vertex_groups.new(name="Bare")
+    bare.add([vertex.index for vertex in body.data.vertices if vertex.co.x > 0], 1.0, "REPLACE")
+    body.skin_tan.mask.source = "Bare"
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     bpy.context.scene.skin_tan.view = view
     white_world()

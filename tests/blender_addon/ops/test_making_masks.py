@@ -1,11 +1,14 @@
 """The buttons that make masks, from scripts: for a brush, and from clothes."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
 from scenes import apply
 
 from blender_addon import masking
+from blender_addon.ops import masks as ops_masks
 from blender_addon.ops.masks import SKIN_TAN_OT_mask_from_clothes
 from blender_addon.props import settings_of
 from blender_addon.scene import clothes
@@ -195,6 +198,80 @@ def test_nothing_changes_before_the_end():
     work.close()
     assert set(body.data.attributes.keys()) == before and not settings.source
     assert hasattr(SKIN_TAN_OT_mask_from_clothes, "modal")
+
+
+class Operator:
+    """From Clothes with a window: a stand-in for what Blender makes of its class."""
+
+    reach, inside, softness, name, target, garments = 30.0, 5.0, 20.0, "Clothes Mask", "OBJECT", ()
+
+    def __init__(self):
+        self.reports = []
+
+    def report(self, kind, text):
+        self.reports.append(text)
+
+
+for name in ("invoke", "modal", "execute", "_started", "_end"):
+    setattr(Operator, name, vars(SKIN_TAN_OT_mask_from_clothes)[name])
+
+
+class Manager:
+    """A window manager that counts timers and keeps progress."""
+
+    def __init__(self):
+        self.timers, self.progress = 0, []
+
+    def event_timer_add(self, seconds, window):
+        self.timers += 1
+
+    def event_timer_remove(self, timer):
+        self.timers -= 1
+
+    def progress_begin(self, low, high):
+        self.progress.append(low)
+
+    def progress_update(self, value):
+        self.progress.append(value)
+
+    def progress_end(self):
+        self.progress.append(None)
+
+    def modal_handler_add(self, operator):
+        pass
+
+
+@pytest.mark.parametrize("is_cancelled", [False, True])
+def test_with_a_window_there_is_progress_and_esc(monkeypatch, is_cancelled):
+    body, garment = sphere(), band()
+    select(body, garment)
+    monkeypatch.setattr(ops_masks, "has_window", lambda context: True)
+    monkeypatch.setattr(ops_masks, "STEP_SECONDS", 0.0001)
+    manager, operator = Manager(), Operator()
+    layer = bpy.context.view_layer
+    context = SimpleNamespace(
+        window=None,
+        window_manager=manager,
+        view_layer=layer,
+        scene=bpy.context.scene,
+        selected_objects=[body, garment],
+        evaluated_depsgraph_get=bpy.context.evaluated_depsgraph_get,
+    )
+    assert operator.invoke(context, None) == {"RUNNING_MODAL"}
+    timer, esc = SimpleNamespace(type="TIMER"), SimpleNamespace(type="ESC")
+    assert operator.modal(context, timer) == {"RUNNING_MODAL"}
+    assert operator.modal(context, SimpleNamespace(type="MOUSEMOVE")) == {"RUNNING_MODAL"}
+    if is_cancelled:
+        assert operator.modal(context, esc) == {"CANCELLED"}
+        assert operator.reports == ["Cancelled; nothing has changed."]
+        assert "Clothes Mask" not in body.data.attributes
+    else:
+        results = {"RUNNING_MODAL"}
+        while results == {"RUNNING_MODAL"}:
+            results = operator.modal(context, timer)
+        assert results == {"FINISHED"} and shares(body).min() == 0.0
+        assert sorted(manager.progress[:-1]) == manager.progress[:-1]
+    assert manager.timers == 0 and manager.progress[-1] is None
 
 
 @pytest.mark.parametrize("domain", ["POINT", "CORNER"])

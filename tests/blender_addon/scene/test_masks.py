@@ -113,6 +113,8 @@ def test_a_vertex_group_of_any_name(body, tmp_path, name):
     apply(body)
     apply(body)
     assert rendered(body, tmp_path) == pytest.approx(VALUES, abs=1e-6)
+    offered = masks.usable_sources(body, None)
+    assert [source.name for source in offered] == [name]
 
 
 def test_an_attribute_of_the_artist_s_under_the_copy_s_name_stays(body, tmp_path):

@@ -13,19 +13,24 @@ NOTES = frozenset("rna_type name group material keyed applied undone exposure_in
 SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())
 """Properties that change the history of the skin and nothing else."""
 
+BIOLOGY = "biology"
+"""Property that changes the look and nothing else."""
+
 SEPARATOR = "\n"
 
 
 def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """All that decides an object's look, in two lines: its schedule, and the rest."""
+    """All that decides an object's look, in three lines: schedule, biology, and the rest."""
     settings = settings_of(obj)
     names = [prop.identifier for prop in settings.bl_rna.properties]
     kept = [name for name in names if name not in NOTES]
     schedule = [_value(settings, name) for name in kept if name in SCHEDULE]
-    rest = [_value(settings, name) for name in kept if name not in SCHEDULE]
+    biology = _value(settings, BIOLOGY)
+    rest = [_value(settings, name) for name in kept if name not in (*SCHEDULE, BIOLOGY)]
     render, units = scene.render, scene.unit_settings
     frames = scene.frame_start, scene.frame_end, render.fps, render.fps_base
-    return SEPARATOR.join(map(repr, (schedule, (rest, frames, units.system, units.scale_length))))
+    lines = schedule, biology, (rest, frames, units.system, units.scale_length)
+    return SEPARATOR.join(map(repr, lines))
 
 
 def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> str:
@@ -53,6 +58,14 @@ def is_only_schedule_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> b
     """Whether no setting but the times in the sun and the sensitivity differs from what shows."""
     former, now = settings_of(obj).applied, text_of(obj, scene)
     return former != now and former.split(SEPARATOR)[1:] == now.split(SEPARATOR)[1:]
+
+
+def is_only_biology_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether no setting but the biology differs from what shows."""
+    former, now = (
+        text.split(SEPARATOR) for text in (settings_of(obj).applied, text_of(obj, scene))
+    )
+    return former != now and (former[0], former[2:]) == (now[0], now[2:])
 
 
 def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> object:

@@ -4,13 +4,14 @@ A handler notices that settings differ from those that a tan shows (`applied`) a
 timer; so nothing is changed while Blender evaluates or draws. A new schedule only gets new pixels
 in the images of the history, fast and roughly at first; after a rest, and before the file is saved,
 they are made exact and lasting. All other changes are applied as the button does, those of
-the biology roughly at first.
+the biology roughly at first, in place if no other object shows the same look.
 
 Blender's undo takes what changed since its last step for unchanged. So pixels change in place, and
 Apply is followed by a step of the undo history. After undo and redo pixels are compared with the
 settings; what else differs waits for Apply, since a new step would cut the way back.
 """
 
+from contextlib import suppress
 from typing import Any, cast
 
 import bpy
@@ -21,11 +22,14 @@ from hylios.errors import InputError
 from . import applied
 from .apply import apply_tan, tannable
 from .model.history import DRAG, FULL, Precision
-from .model.tan import history_of
+from .model.tan import history_of, look_of
 from .props import settings_of
 from .scene import images, nodes, several
 from .scene.ownership import Users
 from .several import has_several
+
+LOOK_VALUES = {"colour": "colour", "bend": "bend", "bow": "bow", "near": "near", "width": "far"}
+"""Names of a look's values by the role of the image that shows them."""
 
 REST_SECONDS = 0.3
 """After so long without a change, a tan is made exact."""
@@ -50,6 +54,7 @@ def after_undo(*_: Any) -> None:
     for obj in scene.objects:
         settings = settings_of(obj)
         if settings.group is not None and settings.live and settings.applied:
+            _restore_look(obj, scene)
             _restore(obj, scene)
     _wait(make_exact, REST_SECONDS)
 
@@ -94,6 +99,8 @@ def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Pr
         try:
             if applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
                 show_schedule(obj, scene, precision)
+            elif precision is DRAG and _is_only_look_changed(obj, scene):
+                show_look(obj, scene, rough=True)
             else:
                 takes_longer = settings_of(obj).biology.is_changed() or has_several(obj)
                 apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
@@ -123,6 +130,47 @@ def show_schedule(
         images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
     if precision is FULL:
         settings.applied = text
+
+
+def show_look(obj: bpy.types.Object, scene: bpy.types.Scene, *, rough: bool) -> None:
+    """Put an object's biology into the images of its look.
+
+    Raises
+    ------
+    InputError
+        If Apply would refuse.
+    """
+    tannable(obj)
+    settings = settings_of(obj)
+    look = vars(look_of(settings.values(), rough=rough))
+    content = applied.digest(applied.text_of(obj, scene))
+    for role, image in (nodes.own_look(settings.group) or {}).items():
+        images.swap_pixels(image, look[LOOK_VALUES[role]], content, pack=True)
+        image.buffers_free()  # Blender converts colours as it reads them from the packed file
+
+
+def _is_only_look_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether only biology changed, in a look that no other object shows."""
+    look = nodes.own_look(settings_of(obj).group)
+    if look is None or not applied.is_only_biology_changed(obj, scene):
+        return False
+    users = Users()
+    return not any(users.others(image, obj) for image in look.values())
+
+
+def _restore_look(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
+    """Have the images of a look show what they hold, which must be that of the biology."""
+    look = nodes.own_look(settings_of(obj).group)
+    if look is None:
+        return
+    for image in look.values():
+        image.reload()
+    former, text = settings_of(obj).applied, applied.text_of(obj, scene)
+    shown = {image.get(images.SHOWN) for image in look.values()}
+    is_right = shown == {applied.digest(text)} or (shown == {None} and former == text)
+    if not is_right and (former == text or _is_only_look_changed(obj, scene)):
+        with suppress(InputError):
+            show_look(obj, scene, rough=False)
 
 
 def _restore(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:

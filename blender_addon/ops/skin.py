@@ -95,13 +95,14 @@ class SKIN_TAN_OT_match_texture(bpy.types.Operator):  # noqa: N801
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         scene: Any = current_scene(context)
-        scene.skin_tan.sample = Color(colour)
+        scene.skin_tan.sample = colour.tolist()
         return _match(self, context, scene.skin_tan.sample)
 
 
 def _match(operator: Any, context: bpy.types.Context, colour: Any) -> set[str]:
     """Give the active object the skin nearest to a colour of the scene's working space."""
-    linear = np.clip(Color(colour).from_scene_linear_to_rec709_linear(), 0.0, 1.0)
+    rec709: Any = Color(colour).from_scene_linear_to_rec709_linear()
+    linear = np.clip(tuple(rec709), 0.0, 1.0)
     try:
         said = match_colour(active_settings(context), linear, adjust=operator.adjust)
     except InputError as error:

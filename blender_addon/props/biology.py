@@ -31,6 +31,7 @@ def _slider(name: str, title: str, description: str) -> Any:
         soft_max=soft_high,
         step=100 if is_share else 5,
         precision=1 if is_share else 2,
+        subtype="PERCENTAGE" if is_share else "FACTOR",
     )
 
 

@@ -167,6 +167,15 @@ def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, bpy.types.I
     return states, places
 
 
+def own_look(group: bpy.types.NodeTree) -> dict[str, bpy.types.Image] | None:
+    """Images of the look by role, where a group shows those that were made for it."""
+    made = {role: group.get(IMAGE_KEYS[role]) for role in LOOK}
+    for role, image in made.items():
+        if image is None or {node.image for node in of_role(group, role)} != {image}:
+            return None
+    return made
+
+
 def missing_roles(group: bpy.types.NodeTree) -> list[str]:
     """Labels of nodes without which a group cannot show the tan, and which it lacks."""
     needed = (

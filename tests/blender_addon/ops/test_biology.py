@@ -57,6 +57,55 @@ def test_dragging_shows_at_once_and_rests_exact(body):
     np.testing.assert_allclose(shown(body), look_of(body.skin_tan.values()).colour, atol=1e-6)
 
 
+def test_a_drag_changes_pixels_in_place(body):
+    image, scene = of_role(body, "colour").image, bpy.context.scene
+    for oxygenation in (-5.0, -10.0, -20.0):
+        body.skin_tan.biology.oxygenation = oxygenation
+        live.show_changes()
+        assert of_role(body, "colour").image == image
+        expected = look_of(body.skin_tan.values(), rough=True)
+        np.testing.assert_allclose(shown(body), expected.colour, atol=1e-6)
+    live.make_exact()
+    assert not applied.is_changed(body, scene)
+
+
+def test_a_drag_leaves_other_skins(body):
+    other = tan_object(III)
+    other.skin_tan.skin = "III"
+    apply(other)
+    before = look(other)
+    body.skin_tan.biology.blood = 2.0
+    live.show_changes()
+    body.skin_tan.biology.blood = 3.0
+    live.show_changes()
+    assert look(other) == before and look(body) != before
+    live.make_exact()
+    assert look(other) == before
+
+
+@pytest.mark.parametrize("rests", [False, True])
+def test_undo_brings_the_look_back(body, rests):
+    bpy.ops.ed.undo_push(message="before")
+    name, before = body.name, look(body)
+    body.skin_tan.biology.blood = 2.0
+    bpy.ops.ed.undo_push(message="blood")
+    live.show_changes()
+    if rests:
+        live.make_exact()
+    after = look(bpy.data.objects[name])
+    assert after != before
+    while bpy.data.objects[name].skin_tan.biology.blood != 1.0:
+        bpy.ops.ed.undo()
+        live.after_undo()
+    assert look(bpy.data.objects[name]) == before
+    bpy.ops.ed.redo()
+    live.after_undo()
+    assert bpy.data.objects[name].skin_tan.biology.blood == 2.0
+    live.make_exact()
+    obj = bpy.data.objects[name]
+    np.testing.assert_allclose(shown(obj), look_of(obj.skin_tan.values()).colour, atol=1e-6)
+
+
 def test_skins_of_one_biology_share_their_images(body):
     other = tan_object(III)
     other.skin_tan.skin = "III"

@@ -71,20 +71,38 @@ def band_look(table: SkinTable, minimal: MinimalDoses, view: View) -> BandLook:
     InputError
         If the table lacks the band, or does not say how its skin makes melanin.
     """
-    bands = [float(nm) for nm in table.provenance.get("bands_nm", [])]
-    if PLANE not in table.planes or view.nm not in bands:
-        listed = ", ".join(f"{nm:g}" for nm in bands if PLANE in table.planes) or "none"
-        raise InputError(f"the table has no band at {view.nm:g} nm; its bands: {listed}")
     grid = grid_of(table, minimal)
-    total = grid.planes(table, [PLANE])[PLANE][..., bands.index(view.nm)]
-    surface = 1.0 - float(let_through(roughness_of(table), NORMAL_ANGLE))
-    inside = np.maximum(total - surface, 0.0)
+    bands = grid.planes(table, [PLANE])[PLANE] if PLANE in table.planes else np.empty(0)
     return BandLook(
-        colour=over_states(inside[..., None] * np.array(view.tint)),
+        colour=over_states(inside_in_view(table, bands, view)),
         melanin=grid.melanin,
         blood=grid.blood,
         thickness=grid.thickness,
     )
+
+
+def inside_in_view(
+    table: SkinTable, reflectance: NDArray[np.float64], view: View
+) -> NDArray[np.float64]:
+    """Tinted light (..., 3) out of a table's skin in a view: less what the surface reflects.
+
+    Parameters
+    ----------
+    reflectance : (..., bands) array
+        In all bands of the table, the surface's part too.
+
+    Raises
+    ------
+    InputError
+        If the table lacks the band.
+    """
+    bands = [float(nm) for nm in table.provenance.get("bands_nm", []) if PLANE in table.planes]
+    if view.nm not in bands:
+        listed = ", ".join(f"{nm:g}" for nm in bands) or "none"
+        raise InputError(f"the table has no band at {view.nm:g} nm; its bands: {listed}")
+    surface = 1.0 - float(let_through(roughness_of(table), NORMAL_ANGLE))
+    inside = np.maximum(reflectance[..., bands.index(view.nm)] - surface, 0.0)
+    return inside[..., None] * np.array(view.tint)
 
 
 def left_by_film(liquid: str, view: View) -> float:

@@ -36,9 +36,12 @@ the other figures, and what was assumed.
 
 In 6.9 to 6.12, 6.19 and 6.20 each skin is solved at its own wavelength; the material has a near
 share, Burley's profile for the rest, and the surface's gloss (`examples/figures/spectral_*.py`).
-Freckles and moles (four times the melanin at most), films and lights are ASSUMED. 6.27 to 6.29 are
-made with tables and the add-on's Apply. The faces and bodies are MakeHuman's, for the thesis's
-meshes were not to be had.
+Freckles and moles (four times the melanin at most), films and lights are ASSUMED. The faces and
+bodies are MakeHuman's, for the thesis's meshes were not to be had.
+
+6.27 to 6.29 are made with tables and the add-on's Apply, with the relief and blotches of a material
+that it makes; only the oil is off. Sunscreen is its film, and the pictures at 365 nm are its view,
+which tints skin alone: the cap and what is behind stay as they are in the visible.
 """
 
 QUALITY = 85

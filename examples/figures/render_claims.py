@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from blender_addon.model.views import VISIBLE
 from examples.figures import report, shots
 from examples.figures.render_results import Result
 from examples.figures.render_sheet import Panel, Panels
 from examples.figures.shots import UV
 from examples.figures.tans import Schedule, history
 from hylios.lab.colour import difference, lab, linear_of_srgb, srgb
-from hylios.pseudo_colour import TINTS
 
 NEAR = 2.0
 """How near in L* a render is to come to its table; what the shader's surface keeps out is 1."""
@@ -47,10 +47,10 @@ def readings_rows(by_figure: Mapping[str, Sequence[Result]]) -> Rows:
         rows.append(
             report.Row(
                 figure,
-                f"L* read from {len(visible)} renders, less the table's",
+                f"L* read from {len(visible)} renders of skin without a film, less the table's",
                 "",
                 f"{np.nanmin(off):+.2f} to {np.nanmax(off):+.2f}; table from the light model "
-                f"without noise: CIEDE2000 up to {apart.max():.2f}",
+                f"without noise: CIEDE2000 up to {np.nanmax(apart):.2f}",
                 "none but in profile widths",
                 f"within {NEAR:g}",
                 bool(np.nanmax(np.abs(off)) <= NEAR),
@@ -200,14 +200,16 @@ def _filling() -> report.Row:
 
 def face(results: Sequence[Result]) -> tuple[Panels, Rows]:
     """Panels of figure 6.28, and rows: gloss of sunscreen, and the tan line at 365 nm."""
-    seen = {result.shot.day: result for result in results if result.shot.table != UV}
-    uv = {result.shot.day: result for result in results if result.shot.table == UV}
+    seen, uv = (
+        {result.shot.day: result for result in results if result.shot.view == view}
+        for view in (VISIBLE, UV)
+    )
     before, after = shots.FACE_DAYS
     said = {before: "before, sunscreen on one half", after: f"{after} days after"}
     panels = [
         [
             Panel(seen[day].picture, f"visible\n{said[day]}"),
-            Panel(pseudo_colour(uv[day].picture), f"365 nm\n{said[day]}"),
+            Panel(_brighter(uv[day].picture), f"365 nm\n{said[day]}"),
         ]
         for day in (before, after)
     ]
@@ -237,7 +239,7 @@ def mild_beside_strong(back: Sequence[Result], faces: Sequence[Result]) -> repor
         next(
             result.contrast[0]
             for result in results
-            if result.shot.day == 15 and result.shot.table != UV
+            if result.shot.day == 15 and result.shot.view == VISIBLE
         )
         for results in (back, faces)
     )
@@ -250,9 +252,9 @@ def mild_beside_strong(back: Sequence[Result], faces: Sequence[Result]) -> repor
     )
 
 
-def pseudo_colour(picture: np.ndarray) -> np.ndarray:
-    """A grey picture in the tint of ultraviolet swatches, sRGB; brighter by `UV_EXPOSURE`."""
-    return srgb(UV_EXPOSURE * linear_of_srgb(picture) * np.array(TINTS["uv"]))
+def _brighter(picture: np.ndarray) -> np.ndarray:
+    """A picture at 365 nm, sRGB, brighter by `UV_EXPOSURE`."""
+    return srgb(UV_EXPOSURE * linear_of_srgb(picture))
 
 
 def _luminance(linear: np.ndarray) -> np.ndarray:

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from examples.figures.shots import UV, Shot
+from blender_addon.model.views import VIEWS, VISIBLE, inside_in_view
+from examples.figures.shots import Shot
 from examples.figures.tans import exposures_of
 from hylios.adding import colours
 from hylios.lab.colour import difference, lab
@@ -26,9 +27,10 @@ class Result:
         Light out of the skin as a share of a white diffuser's: of each part in the sun, then of
         covered skin.
     predicted : (parts + 1, 3) array
-        The same by the table at the tanning state of the day.
+        The same by the table at the tanning state of the day, tinted in a view; not a number
+        under a film.
     exact : (parts + 1, 3) array or None
-        The same by the light model without noise; None at 365 nm.
+        The same by the light model without noise; None in a view.
     shine : (2,) array
         Light reflected by the surface, mean of the brightest hundredth, in the sun and covered.
     sun_distance : (rows, columns) array
@@ -65,12 +67,29 @@ def result(shot: Shot, skin: Skin, table: SkinTable, folder: Path) -> Result:
             shot=shot,
             picture=file["picture"],
             readings=file["readings"],
-            predicted=table.plane("subsurface_colour", states),
-            exact=None if shot.table == UV else np.array([model_colour(skin, s) for s in states]),
+            predicted=_without_film(predicted(table, states, shot.view), shot),
+            exact=None
+            if shot.view != VISIBLE
+            else _without_film(np.array([model_colour(skin, state) for state in states]), shot),
             shine=file["shine"],
             sun_distance=file["sun_distance"],
             subject=str(file["subject"]),
         )
+
+
+def predicted(table: SkinTable, states: np.ndarray, view: str) -> np.ndarray:
+    """Colour (N, 3) of the light out of skin in tanning states (N, 4) by its table, in a view."""
+    if view == VISIBLE:
+        return table.plane("subsurface_colour", states)
+    return inside_in_view(table, table.plane("band_reflectance", states), VIEWS[view])
+
+
+def _without_film(colours: np.ndarray, shot: Shot) -> np.ndarray:
+    """Colours of a shot's parts and of covered skin, where sunscreen lies on this not a number."""
+    if shot.gloss:
+        colours = np.array(colours)
+        colours[-1] = np.nan
+    return colours
 
 
 def tanning_states(shot: Shot, skin: Skin) -> np.ndarray:

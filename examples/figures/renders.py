@@ -7,13 +7,11 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from blender_addon.model.views import VIEWS
 from examples.figures import report, shots
 from examples.figures.light import Effort, Task, Tick
 from examples.figures.render_claims import (
@@ -32,49 +30,19 @@ from examples.figures.render_sheet import sheet
 from examples.figures.shots import UV, Shot
 from examples.figures.spectral_shots import SpectralShot
 from hylios.errors import InputError
-from hylios.near_far import near_share_and_far_width
 from hylios.skin import Skin
 from hylios.table import SkinTable
-from hylios.transport.simulate import DISTANCE_EDGES
-from hylios.transport.simulate import spectrum as walked
 from lut_builder.assemble import build
 from lut_builder.exr_writer import write_table
 from lut_builder.settings import Settings
 
 FIGURES = ("6.24", "6.25", "6.26", "6.27", "6.28", "6.29")
 
-SETTINGS = Settings(knots=(9, 2, 2), profile_error=0.03, bands=())
-"""Settings of the tables: coarser than the standard preset."""
+SETTINGS = Settings(knots=(9, 2, 2), profile_error=0.03, bands=(VIEWS[UV].nm,))
+"""Settings of the tables: coarser than the standard preset, and of the bands only the view's."""
 
 TABLE_AS_LONG = 4000
 """Wavelengths without noise that take as long as a table; only the time left follows from it."""
-
-UV_NM, UV_RAYS = 365.0, 100_000
-
-
-def uv_table(table: SkinTable, skin: Skin, effort: Effort) -> SkinTable:
-    """The table with reflectance, near share and far width at 365 nm in place of colour's, grey."""
-    grey = {
-        name: table.planes[name].copy()
-        for name in table.planes
-        if name.startswith("subsurface_colour") or name in ("near_share", "far_width")
-    }
-    states = table.axes.knot_states()
-    for knot in np.ndindex(*table.axes.shape):
-        light = walked(
-            skin.at(states[knot]),
-            np.array([UV_NM]),
-            angle=8.0,
-            rays=UV_RAYS,
-            seed=effort.seed,
-            threads=effort.threads,
-        )
-        share, width = near_share_and_far_width(DISTANCE_EDGES, light.exit_counts[0])
-        for name, plane in grey.items():
-            told = {"near_share": share, "far_width": width}.get(name, light.subsurface[0])
-            plane[knot] = told
-    return replace(table, planes={**table.planes, **grey})
-
 
 PICTURE_AS_LONG = 2000
 """Wavelengths without noise that take as long as a picture; only the time left follows from it."""
@@ -89,7 +57,7 @@ def tasks(effort: Effort) -> dict[str, Task]:
         If there is no Blender.
     """
     wanted = of_figures(effort.wanted(FIGURES))
-    skins = len(_colour_tables(wanted))
+    skins = len(_tables(wanted))
     return rendering(
         "figures 6.24 to 6.29",
         lambda folder, tick: rendered(wanted, folder, effort, tick),
@@ -123,10 +91,8 @@ def rendered(
     options: Sequence[str] = (),
 ) -> list[Result]:
     """Build the tables that shots need in a folder, render there, and read what came of it."""
-    skins = {**shots.skins(), UV: shots.skins()["low"]}
-    tables = {name: table_of(skins[name], effort, tick) for name in _colour_tables(wanted)}
-    if any(shot.table == UV for shot in wanted):
-        tables[UV] = uv_table(tables["low"], skins[UV], effort)
+    skins = shots.skins()
+    tables = {name: table_of(skins[name], effort, tick) for name in _tables(wanted)}
     for name, table in tables.items():
         write_table(folder / f"{name}.exr", table)
     run_blender(wanted, folder, options, tick)
@@ -138,8 +104,8 @@ def of_figures(figures: Sequence[str]) -> list[Shot]:
     return [shot for shot in shots.shots() if shot.name.split()[0] in figures]
 
 
-def _colour_tables(wanted: Sequence[Shot]) -> list[str]:
-    return sorted({"low" if shot.table == UV else shot.table for shot in wanted})
+def _tables(wanted: Sequence[Shot]) -> list[str]:
+    return sorted({shot.table for shot in wanted})
 
 
 def table_of(skin: Skin, effort: Effort, tick: Tick) -> SkinTable:

@@ -26,11 +26,14 @@ from hylios.commands.shell import run
 from hylios.lab.colour import srgb
 
 FRAMES_PER_DAY = 4
-SUNSCREEN_ROUGHNESS, SUNSCREEN_SPECULAR = 0.20, 0.65
 
 
-def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> None:
+def tan(
+    obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule], *, sunscreen: bool = False
+) -> None:
     """Give each part of an object the tan of its schedule, as the add-on's Apply does.
+
+    With sunscreen a film of it lies on what the sun does not reach.
 
     Apply gives an object one tan. The further ones are applied to objects that share the mesh,
     whose materials the mesh's further slots take.
@@ -39,7 +42,10 @@ def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> No
         tanned = obj if number == 0 else bpy.data.objects.new(f"{obj.name} {number}", obj.data)
         settings = tanned.skin_tan
         settings.skin, settings.table_path = "FILE", str(table.resolve())
-        settings.mask_attribute = scene.MASK
+        settings.mask.source = scene.MASK
+        if sunscreen:
+            settings.film = "SUNSCREEN"
+            settings.film_mask.source, settings.film_mask.invert = scene.MASK, True
         settings.exposures.clear()
         for day, dose in schedule:
             exposure = settings.exposures.add()
@@ -47,35 +53,24 @@ def tan(obj: bpy.types.Object, table: Path, schedules: Sequence[Schedule]) -> No
         settings.first_day, settings.last_day = 0.0, LAST_DAY
         settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
         apply_tan(tanned, bpy.context.scene)
-        scene.make_even(tanned)
+        take_oil(tanned)
         if number:
             material = tanned.skin_tan.material
             bpy.data.objects.remove(tanned)
             obj.data.materials[number] = material
 
 
+def take_oil(obj: bpy.types.Object) -> None:
+    """Take the oil from a tanned object's skin, of which the thesis's has none."""
+    for slot in obj.material_slots:
+        for node in slot.material.node_tree.nodes if slot.material else ():
+            if "Oil" in node.inputs:
+                node.inputs["Oil"].default_value = 0.0
+
+
 def frame_of(day: float) -> int:
     """Frame of the timeline that shows a day."""
     return 1 + round(FRAMES_PER_DAY * day)
-
-
-def set_gloss(material: bpy.types.Material, *, sunscreen: bool) -> None:
-    """Have skin that the sun does not reach shine as sunscreen does, or as skin."""
-    tree = material.node_tree
-    skin = next(node for node in tree.nodes if "Surface" in node.outputs)
-    for node in [node for node in tree.nodes if node.label == "Sunscreen"]:
-        tree.nodes.remove(node)
-    if not sunscreen:
-        return
-    share = tree.nodes.new("ShaderNodeAttribute")
-    share.attribute_name, share.label = scene.MASK, "Sunscreen"
-    for name, covered in (("Roughness", SUNSCREEN_ROUGHNESS), ("Specular", SUNSCREEN_SPECULAR)):
-        mixed = tree.nodes.new("ShaderNodeMapRange")
-        mixed.label = "Sunscreen"
-        mixed.inputs["To Min"].default_value = covered
-        mixed.inputs["To Max"].default_value = skin.inputs[name].default_value
-        tree.links.new(share.outputs["Fac"], mixed.inputs["Value"])
-        tree.links.new(mixed.outputs["Result"], skin.inputs[name])
 
 
 def take(shot: Shot, quality: render.Quality, scratch: Path) -> Taken:
@@ -96,14 +91,14 @@ def shoot(
     for shot in wanted:
         stage = by_name[shot.stage]
         quality = render.Quality(samples, max(1, round(scale * shot.percent)), "HIGH")
-        if standing != (shot.stage, shot.table, shot.schedules):
+        wanted_now = (shot.stage, shot.table, shot.schedules, shot.gloss, shot.view)
+        if standing != wanted_now:
             # A new scene even for a new tan only: with persistent data Cycles may render a former
             # image in place of the one that has replaced it.
             obj = built(stage)
-            tan(obj, folder / f"{shot.table}.exr", shot.schedules)
-            standing = (shot.stage, shot.table, shot.schedules)
-        for slot in obj.material_slots:
-            set_gloss(slot.material, sunscreen=shot.gloss)
+            tan(obj, folder / f"{shot.table}.exr", shot.schedules, sunscreen=shot.gloss)
+            bpy.context.scene.skin_tan.view = shot.view
+            standing = wanted_now
         view = (shot.stage, shot.window, shot.percent)
         if view not in whites:
             with render.white(obj):

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from blender_addon.model.views import VISIBLE
 from examples.figures import tans
 from examples.figures.tans import MILLER_SKIN, Schedule
 from hylios.skin import Skin
@@ -72,6 +73,8 @@ class Shot:
         Of the stage's size.
     gloss : bool
         Whether the sunscreen still lies on what it covers.
+    view : str
+        The add-on's, by its identifier (`blender_addon.model.views`).
     """
 
     name: str
@@ -82,6 +85,7 @@ class Shot:
     window: Window = WHOLE
     percent: int = 48
     gloss: bool = False
+    view: str = VISIBLE
 
 
 DONE = "done "
@@ -94,7 +98,7 @@ FACE_DAYS = (0, 15)
 DAILY = tuple(range(1, 31))
 MAIN_DAYS = (1, 10, 20, 30)
 LAST_DAY = 46.0
-UV = "low 365 nm"
+UV = "NM365"
 
 
 def shots() -> list[Shot]:
@@ -114,8 +118,8 @@ def shots() -> list[Shot]:
         for day in AIRPORT_DAYS
     ]
     face = [
-        Shot(f"6.28 {light} day {day}", "face", table, (BEACH,), day, gloss=day == 0)
-        for light, table in (("visible", "low"), ("UV", UV))
+        Shot(f"6.28 {light} day {day}", "face", "low", (BEACH,), day, gloss=day == 0, view=view)
+        for light, view in (("visible", VISIBLE), ("UV", UV))
         for day in FACE_DAYS
     ]
     main = [Shot(f"6.29 day {day}", "swimmer", "beach", (BEACH,), day) for day in MAIN_DAYS]

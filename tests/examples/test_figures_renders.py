@@ -10,6 +10,8 @@ import pytest
 from matplotlib.image import imread
 
 import blender_addon
+from blender_addon.model.views import VISIBLE
+from blender_addon.scene import film
 from examples.demo import render, scene
 from examples.figures import (
     pixel_readings,
@@ -33,7 +35,9 @@ from lut_builder.exr_writer import write_table
 from lut_builder.settings import Settings
 
 STAND_IN = ("--stand-in", "--scale", "0.12", "--samples", "32")
-COARSE = Settings(knots=(3,), bands=(), profile_error=0.1, profile_wavelengths=4, profile_states=8)
+COARSE = Settings(
+    knots=(3,), bands=(365.0,), profile_error=0.1, profile_wavelengths=4, profile_states=8
+)
 """Enough for the path; nobody looks at the colours."""
 
 
@@ -86,7 +90,8 @@ def test_the_skin_between_is_darker_than_the_light_and_lighter_than_the_dark():
 def test_every_shot_has_its_table_and_day():
     every = shots.shots()
     assert len({shot.name for shot in every}) == len(every)
-    assert {shot.table for shot in every} == {*shots.skins(), shots.UV}
+    assert {shot.table for shot in every} == set(shots.skins())
+    assert {shot.view for shot in every} == {VISIBLE, shots.UV}
     assert all(0 <= shot.day <= shots.LAST_DAY for shot in every)
     assert {shot.name.split()[0] for shot in every} == set(renders.FIGURES)
 
@@ -195,11 +200,28 @@ def test_three_schedules_on_one_object_are_three_materials(table):
         ]
         assert melanin[0] < melanin[1] < melanin[2]  # stronger schedules are darker
         assert {face.material_index for face in obj.data.polygons} == {0, 1, 2}
-        skin = obj.data.materials[0].node_tree
-        scenes.set_gloss(obj.data.materials[0], sunscreen=True)
-        assert sum(node.label == "Sunscreen" for node in skin.nodes) == 3
-        scenes.set_gloss(obj.data.materials[0], sunscreen=False)
-        assert not any(node.label == "Sunscreen" for node in skin.nodes)
+        assert not any(film.is_shown(group) for group in groups_of(obj))
+    finally:
+        blender_addon.unregister()
+
+
+def groups_of(obj):
+    """The tan's groups of an object."""
+    nodes = [node for slot in obj.material_slots for node in slot.material.node_tree.nodes]
+    return [node.node_tree for node in nodes if "Oil" in node.inputs]
+
+
+def test_sunscreen_is_the_film_of_the_add_on_on_skin_without_oil(table):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    blender_addon.register()
+    try:
+        obj = stages.built(stages.stages(None)["face"])
+        scenes.tan(obj, table, (shots.BEACH,), sunscreen=True)
+        (group,) = groups_of(obj)
+        assert film.is_shown(group)
+        assert obj.skin_tan.worn_film_mask().invert  # it lies where the sun does not reach
+        nodes = obj.material_slots[0].material.node_tree.nodes
+        assert [node.inputs["Oil"].default_value for node in nodes if "Oil" in node.inputs] == [0.0]
     finally:
         blender_addon.unregister()
 
@@ -272,7 +294,6 @@ def test_a_sheet_holds_every_picture_pixel_by_pixel(tmp_path):
 
 def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
     monkeypatch.setattr(renders, "SETTINGS", COARSE)
-    monkeypatch.setattr(renders, "UV_RAYS", 300)
     wanted = shots.named(["6.28 visible day 0", "6.28 UV day 15"])
     ticks = []
     results = renders.rendered(wanted, tmp_path, Effort(seed=1), ticks.append, STAND_IN)
@@ -282,9 +303,11 @@ def test_a_tiny_render_goes_the_whole_path(tmp_path, monkeypatch):
     assert visible.subject == "Suzanne"
     assert visible.picture.shape == uv.picture.shape == (43, 32, 3)
     assert visible.exact is not None and uv.exact is None
-    assert np.abs(lab(visible.readings) - lab(visible.predicted))[:, 0].max() < render_claims.NEAR
+    off = lab(visible.readings) - lab(visible.predicted)
+    assert np.abs(off[0, 0]) < render_claims.NEAR
+    assert np.all(np.isnan(off[1]))  # a film lies there
     assert uv.readings[0, 0] < uv.readings[1, 0]
-    assert np.ptp(uv.readings, axis=1).max() < 1e-6  # grey
+    assert uv.readings == pytest.approx(uv.predicted, rel=0.1)
 
 
 @pytest.mark.slow

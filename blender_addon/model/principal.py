@@ -66,6 +66,7 @@ def _weighted(numbers: NDArray, rank: int, by_curve: NDArray, by_place: NDArray)
     lines = (numbers - mean) * by_place
     lines *= by_curve[:, None]
     # Ascending eigenvalues; with fewer places than shapes the rest are 0.
-    vectors = np.linalg.eigh(lines.T @ lines)[1][:, ::-1][:, :rank]
-    vectors = np.pad(vectors, ((0, 0), (0, rank - vectors.shape[1])))
+    largest = np.linalg.eigh(lines.T @ lines)[1][:, ::-1][:, :rank]
+    vectors = np.zeros((len(largest), rank))
+    vectors[:, : largest.shape[1]] = largest
     return Shapes(mean, (vectors / by_place[:, None]).T, vectors * by_place[:, None])

@@ -43,7 +43,8 @@ def simulated(received, shares, hours) -> np.ndarray:
     whole = np.concatenate([own.melanogenesis for own in received])
     times, which = np.unique(hours, return_inverse=True)
     exposures = Exposures(when, shares[:, mask] * whole)
-    states = states_at(exposures, MELANIN, times=times, **SKIN)[np.arange(len(shares)), which]
+    states = states_at(exposures, MELANIN, times=times, mmd=SKIN["mmd"], med=SKIN["med"])
+    states = states[np.arange(len(shares)), which]
     return np.log(np.stack([states[:, :3].sum(axis=1), states[:, 3]], axis=1))
 
 

@@ -51,8 +51,10 @@ def random_exposure(random) -> SimpleNamespace:
 
 def that_count(exposure) -> dict:
     """The settings that count, as a file gives them back."""
-    names = {"SUN": ("latitude", "month", "day_of_month", "from_hour", "to_hour")}
-    names["UV_INDEX"] = ("duration",)
+    names: dict[str, tuple[str, ...]] = {
+        "SUN": ("latitude", "month", "day_of_month", "from_hour", "to_hour"),
+        "UV_INDEX": ("duration",),
+    }
     wanted = ["day", "unit", "enabled", *names.get(exposure.unit, ())]
     if exposure.unit in AMOUNTS:
         wanted.append(AMOUNTS[exposure.unit][0])

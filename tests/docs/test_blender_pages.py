@@ -40,13 +40,15 @@ bpy.ops.wm.save_as_mainfile(filepath="scene.blend")
 
 CHECKED = """
 assert body["tan_day"] == 0.0 and body.active_material.name == "Skin Tan Body"
+assert len(body.skin_tan.exposures) > 1, "the schedule of a preset"
 print("tanned", bpy.data.filepath)
 """
 
 
 def script_of_the_studio(zip_path):
+    """All blocks of the page, from top to bottom."""
     text = (ROOT / "docs" / "studio.md").read_text(encoding="utf-8")
-    (code,) = re.findall(r"```python\n(import bpy\n.*?)```", text, re.DOTALL)
+    code = "".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
     assert '"skin_tan-0.1.0.zip"' in code
     return code.replace('"skin_tan-0.1.0.zip"', repr(str(zip_path)))
 
@@ -56,7 +58,7 @@ def archive(tmp_path_factory):
     return package.build(tmp_path_factory.mktemp("built"))
 
 
-def test_a_painted_mask_and_the_script_of_the_studio(archive, tmp_path):
+def test_a_painted_mask_and_the_scripts_of_the_studio(archive, tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", PAINTED + script_of_the_studio(archive) + CHECKED],
         capture_output=True,

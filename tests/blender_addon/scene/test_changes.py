@@ -2,23 +2,28 @@
 
 import inspect
 import sys
+from functools import partial
 from pathlib import Path
 
 import bpy
 import pytest
+from artist_skins import layered, wear
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import add_mask, apply, look, tan_object
+from state import state
 
 import blender_addon.apply as module
+from blender_addon.removal import remove_tan
 from blender_addon.scene import changes
 
 FILE = Path(__file__).parents[1] / "data" / "first_version.blend"
-ROOMS = ("blender_addon/scene/", "blender_addon/apply.py", "blender_addon/views.py")
+ROOMS = (
+    "blender_addon/scene/",
+    "blender_addon/removal.py",
+    "blender_addon/apply.py",
+    "blender_addon/views.py",
+)
 COLLECTIONS = ("images", "materials", "node_groups", "actions", "meshes", "objects")
-
-
-SOURCE, FIRST_LINE = inspect.getsourcelines(module.apply_tan)
-WITH_LINE = FIRST_LINE + SOURCE.index("    with Changes() as changes:\n")
 
 
 class StoppedError(Exception):
@@ -32,9 +37,12 @@ def is_in_exit(frame) -> bool:
     return frame is not None
 
 
-def stopped_at(number: int, obj) -> bool:
+def stopped_at(number: int, obj, function=None) -> bool:
     """Apply with an exception before the n-th line of the add-on's; whether it came so far."""
-    count = 0
+    count, function = 0, function or partial(module.apply_tan, scene=bpy.context.scene)
+    code = getattr(function, "func", function).__code__
+    source, first_line = inspect.getsourcelines(code)
+    with_line = first_line + source.index("    with Changes() as changes:\n")
 
     def trace(frame, event, argument):
         nonlocal count
@@ -42,7 +50,7 @@ def stopped_at(number: int, obj) -> bool:
         if not any(room in path for room in ROOMS) or is_in_exit(frame):
             return None
         # Python comes back to the line of the `with` on its way to `__exit__`.
-        is_with = frame.f_code.co_name == "apply_tan" and frame.f_lineno == WITH_LINE
+        is_with = frame.f_code is code and frame.f_lineno == with_line
         if event == "line" and not is_with:
             count += 1
             if count == number:
@@ -53,7 +61,7 @@ def stopped_at(number: int, obj) -> bool:
     former = sys.gettrace()
     sys.settrace(trace)
     try:
-        module.apply_tan(obj, bpy.context.scene)
+        function(obj)
     except StoppedError:
         return True
     finally:
@@ -182,7 +190,7 @@ SCENES = [new, again, shared, without_slots, of_first_version, of_layout_1]
 def test_an_exception_anywhere(table_path, monkeypatch, scene):
     obj = scene(table_path)
     tan = module.tan_of(obj.skin_tan.values())
-    monkeypatch.setattr(module, "tan_of", lambda values: tan)
+    monkeypatch.setattr(module, "tan_of", lambda values, **more: tan)
     bpy.context.view_layer.update()
     before, number = inventory(), 1
     seen = look(obj) if bpy.data.images else b""
@@ -196,6 +204,23 @@ def test_an_exception_anywhere(table_path, monkeypatch, scene):
 
 STEP = 131
 """Every so many lines; with 1 the tests take minutes."""
+
+
+def test_an_exception_anywhere_in_remove(table_path):
+    """With copies of shared materials and groups, and an action of the artist's."""
+    obj = tan_object(table_path)
+    wear(obj, [layered("skin")])
+    hands = bpy.data.objects.new("Hands", bpy.data.meshes.new("Hands"))
+    hands.data.materials.append(obj.data.materials[0])
+    obj.keyframe_insert("location", frame=3)
+    apply(obj)
+    bpy.context.view_layer.update()
+    before, kept, number = inventory(), state(), 1
+    while stopped_at(number, obj, remove_tan):
+        assert inventory() == before and state() == kept, f"after line {number}"
+        number += 4999
+    assert number > 20000
+    assert obj.skin_tan.group is None
 
 
 def test_what_cannot_be_undone_waits_for_the_end():

@@ -30,7 +30,7 @@ def test_two_buttons_lead_from_a_clothed_character_to_tan_lines(character):
     assert 0.1 < np.mean(shares == 0.0) and 0.3 < np.mean(shares == 1.0)
     assert bpy.context.scene.frame_current > 50 and 5.0 < body["tan_day"] < 20.0
     material = body.active_material
-    assert material.name == "body skin" and "Tan" in material.node_tree.nodes
-    painted = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
-    assert painted.default_value[:3] == pytest.approx(PAINTED)
+    colour = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
+    assert material.name == "body skin" and colour.links[0].from_node.label == "Tan"
+    assert colour.default_value[:3] == pytest.approx(PAINTED)
     assert not garment.skin_tan.exposures and garment.skin_tan.group is None

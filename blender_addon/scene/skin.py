@@ -12,7 +12,7 @@ from hylios.errors import InputError
 from . import first_version, materials, nodes, recolour, removal, slots
 from .changes import Changes
 from .ownership import FORMER, MADE, Users, is_local, names, remembered
-from .trees import chain, shaders, tan_groups, tree_of
+from .trees import chain, has_nodes, shaders, tan_groups, tree_of
 
 VIEWPORT = "skin_tan_viewport"
 """Custom property of a material of ours: the colour that Solid view was given."""
@@ -235,6 +235,9 @@ def _listed(block: bpy.types.Material | None) -> list[bpy.types.Material]:
 def _usable(blocks: list[bpy.types.Material], replacing: bool) -> list[bpy.types.Material]:
     """Those of some ticked materials that can be recoloured."""
     usable = [block for block in blocks if replacing or shaders(block)]
+    plain = [block for block in blocks if not has_nodes(block)]
+    if plain and not usable:
+        raise InputError(f"{names(plain)} has no nodes; turn on Use Nodes, or New Material.")
     if blocks and not usable:
         raise InputError(
             f"{names(blocks)} cannot be recoloured: no Principled BSDF or other shader with a "

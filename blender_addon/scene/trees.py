@@ -71,6 +71,11 @@ def _holding(
             yield from _holding(inner, group)
 
 
+def has_nodes(material: bpy.types.Material) -> bool:
+    """Whether a material shows its nodes: in Blender 4.5 they can be turned off."""
+    return bpy.app.version >= (5, 0, 0) or material.use_nodes
+
+
 Shader = tuple[tuple[bpy.types.NodeTree, ...], Any, Any]
 """Groups around a shader from the outermost, the shader's node, and the input of its colour."""
 
@@ -78,7 +83,7 @@ Shader = tuple[tuple[bpy.types.NodeTree, ...], Any, Any]
 def shaders(material: bpy.types.Material) -> list[Shader]:
     """Shaders with a colour that a material shows on its surface, whatever group they are in."""
     tree: Any = material.node_tree
-    if tree is None:
+    if tree is None or not has_nodes(material):
         return []
     outputs = dict.fromkeys(map(tree.get_output_node, TARGETS))
     ends = [node.inputs["Surface"] for node in outputs if node is not None]

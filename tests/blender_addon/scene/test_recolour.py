@@ -238,6 +238,16 @@ def test_a_material_without_a_colour_is_refused(table_path):
     assert not bpy.data.images and not bpy.data.node_groups
 
 
+@pytest.mark.skipif(bpy.app.version >= (5, 0, 0), reason="all materials have nodes")
+def test_nodes_that_are_off_are_told(table_path):
+    material = plain("skin")
+    material.use_nodes = False
+    body_in(table_path, [material])
+    with pytest.raises(RuntimeError, match="'skin' has no nodes; turn on Use Nodes"):
+        apply()
+    assert not tans(material)
+
+
 def test_a_factor_that_was_removed_is_told_and_not_put_back(table_path, capfd):
     material = textured("skin")
     body_in(table_path, [material])

@@ -33,16 +33,20 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     return SEPARATOR.join(map(repr, lines))
 
 
-def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> str:
-    """Remember that an object's look is that of its settings, and return their digest."""
+def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None:
+    """Remember that an object's look is that of its settings."""
     text = text_of(obj, scene)
     if settings_of(obj).applied != text:
         changes.set(settings_of(obj), "applied", text)
-    return digest(text)
 
 
 def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def look_digest(text: str) -> str:
+    """Digest of all in a text but the schedule, which a look does not know."""
+    return digest(SEPARATOR.join(text.split(SEPARATOR)[1:]))
 
 
 def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:

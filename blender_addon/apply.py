@@ -85,9 +85,10 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
+        source = applied.digest(applied.text_of(obj, scene))
+        images.note_content((sampled.states, sampled.places), source)
         if not rough:
-            source = applied.note(obj, scene, changes)
-            images.note_content((sampled.states, sampled.places), source)
+            applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += several.remarks(of_masks) if of_masks else mask_values.remarks(obj, mask, shown)

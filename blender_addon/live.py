@@ -97,18 +97,34 @@ def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Pr
     has_applied = False
     for obj in objects:
         try:
-            if applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
-                show_schedule(obj, scene, precision)
-            elif precision is DRAG and _is_only_look_changed(obj, scene):
-                show_look(obj, scene, rough=True)
-            else:
-                takes_longer = settings_of(obj).biology.is_changed() or has_several(obj)
-                apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
-                has_applied = True
+            has_applied |= _show_one(obj, scene, precision)
         except InputError:
             pass  # Apply says why, when the artist wants to know
     if has_applied:
         bpy.ops.ed.undo_push(message="Apply Tan")
+
+
+def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precision) -> bool:
+    """Show an object's settings, and return whether Apply did it; else pixels were changed."""
+    settings, text = settings_of(obj), applied.text_of(obj, scene)
+    if settings.applied == text and _is_alone(obj) and _lasts(obj, text):
+        _restore_look(obj, scene)
+        _restore(obj, scene)
+    elif applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
+        _restore_look(obj, scene)
+        show_schedule(obj, scene, precision)
+    elif precision is DRAG and _is_only_look_changed(obj, scene):
+        show_look(obj, scene, rough=True)
+    else:
+        takes_longer = settings.biology.is_changed() or has_several(obj)
+        apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
+        return True
+    return False
+
+
+def _lasts(obj: bpy.types.Object, text: str) -> bool:
+    """Whether the packed files of an object's history come from the settings of a text."""
+    return all(image.get(images.LASTING) == applied.digest(text) for image in _history(obj))
 
 
 def show_schedule(
@@ -143,7 +159,7 @@ def show_look(obj: bpy.types.Object, scene: bpy.types.Scene, *, rough: bool) -> 
     tannable(obj)
     settings = settings_of(obj)
     look = vars(look_of(settings.values(), rough=rough))
-    content = applied.digest(applied.text_of(obj, scene))
+    content = applied.look_digest(applied.text_of(obj, scene))
     for role, image in (nodes.own_look(settings.group) or {}).items():
         images.swap_pixels(image, look[LOOK_VALUES[role]], content, pack=True)
         image.buffers_free()  # Blender converts colours as it reads them from the packed file
@@ -163,12 +179,15 @@ def _restore_look(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
     look = nodes.own_look(settings_of(obj).group)
     if look is None:
         return
+    former, text = settings_of(obj).applied, applied.text_of(obj, scene)
+    wanted = applied.look_digest(text)
+    shown = {image.get(images.SHOWN) for image in look.values()}
+    if shown == {None} and wanted == applied.look_digest(former):
+        shown = {wanted}
     for image in look.values():
         image.reload()
-    former, text = settings_of(obj).applied, applied.text_of(obj, scene)
-    shown = {image.get(images.SHOWN) for image in look.values()}
-    is_right = shown == {applied.digest(text)} or (shown == {None} and former == text)
-    if not is_right and (former == text or _is_only_look_changed(obj, scene)):
+    is_its_own = wanted == applied.look_digest(former) or _is_only_look_changed(obj, scene)
+    if shown != {wanted} and is_its_own:
         with suppress(InputError):
             show_look(obj, scene, rough=False)
 
@@ -210,9 +229,23 @@ def _stale(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 def _is_stale(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     settings = settings_of(obj)
-    if not (settings.group and settings.live and applied.is_changed(obj, scene)):
+    if not (settings.group and settings.live and settings.applied):
         return False
-    return not settings.undone or settings.undone != applied.text_of(obj, scene)
+    text = applied.text_of(obj, scene)
+    if settings.applied != text:
+        return settings.undone != text
+    return not _is_right(settings.group, text)
+
+
+def _is_right(group: bpy.types.NodeTree, text: str) -> bool:
+    """Whether pixels come from the settings of a text, not from a drag that has ended there."""
+    history, look = nodes.own_history(group) or (), nodes.own_look(group) or {}
+    of_history = {image.get(images.SHOWN) for image in history}
+    of_look = {image.get(images.SHOWN) for image in look.values()}
+    return of_history <= {None, applied.digest(text)} and of_look <= {
+        None,
+        applied.look_digest(text),
+    }
 
 
 def _wait(timer: Any, seconds: float) -> None:

@@ -9,7 +9,7 @@ from .apply import tannable
 from .model.settings import LARGEST_SCALE, LEAST_SCALE
 from .model.size import times_life_size
 from .props import settings_of
-from .scene import size
+from .scene import images, nodes, size
 from .scene.changes import Changes
 from .scene.ownership import names
 
@@ -45,5 +45,7 @@ def fit_size(obj: bpy.types.Object | None, scene: bpy.types.Scene, model_scale: 
             size.fit(other, scene, changes)
         if was_shown and settings.group is not None:
             applied.note(obj, scene, changes)
+            history = nodes.own_history(settings.group) or ()
+            images.note_content(history, applied.digest(settings.applied))
     said = f"{obj.name!r} is {settings.model_scale:.3g} times life-size."
     return f"{said} Light goes as far as it should in {names(mended)}." if mended else said

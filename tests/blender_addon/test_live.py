@@ -42,6 +42,15 @@ def test_a_new_schedule_shows_and_becomes_exact(body):
     np.testing.assert_array_equal(states(body), expected.coordinates)
 
 
+def test_a_drag_that_ends_where_it_began(body):
+    before = look(body)
+    for dose in (8.0, 30.0):
+        body.skin_tan.exposures[0].dose = dose
+        live.show_changes()
+    live.make_exact()
+    assert look(body) == before
+
+
 def test_what_shows_while_dragging_is_near_what_stays(body, tmp_path):
     from scenes import add_camera, render, white_world
 

@@ -69,6 +69,28 @@ def test_a_drag_changes_pixels_in_place(body):
     assert not applied.is_changed(body, scene)
 
 
+@pytest.mark.parametrize("alone", [True, False])
+def test_a_drag_that_ends_where_it_began_leaves_the_look(body, alone):
+    if not alone:
+        other = tan_object(III)
+        other.skin_tan.skin = "III"
+        apply(other)
+    before = look(body)
+    for blood in (2.0, 1.0):
+        body.skin_tan.biology.blood = blood
+        live.show_changes()
+    live.make_exact()
+    assert look(body) == before and not live._stale(bpy.context.scene)
+
+
+def test_biology_back_and_another_schedule(body):
+    body.skin_tan.biology.blood = 2.0
+    live.show_changes()
+    body.skin_tan.biology.blood, body.skin_tan.exposures[0].dose = 1.0, 3.0
+    live.make_exact()
+    np.testing.assert_allclose(shown(body), look_of(body.skin_tan.values()).colour, atol=1e-6)
+
+
 def test_a_drag_leaves_other_skins(body):
     other = tan_object(III)
     other.skin_tan.skin = "III"

@@ -64,13 +64,13 @@ def mask_for_brush(
         kind = source.kind if source else ""
         if source is not None and kind == "GROUP":
             obj.vertex_groups.active_index = obj.vertex_groups[source.name].index
-            return kind, f"Weight 0 is covered, 1 is bare: painting {source.name!r}."
+            return kind, f"{_legend(mask, 'Weight 0', '1')}: painting {source.name!r}."
         if source is not None and kind == "IMAGE":
             _activate_image(mesh, mask)
-            return kind, f"Black is covered, white is bare: painting {source.name!r}."
+            return kind, f"{_legend(mask)}: painting {source.name!r}."
         return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
     mask_colours.activate(mesh, source.name)
-    return "COLOUR", f"Black is covered, white is bare: painting {source.name!r}."
+    return "COLOUR", f"{_legend(mask)}: painting {source.name!r}."
 
 
 def from_clothes(
@@ -136,7 +136,7 @@ def _new_for_brush(
     """A new mask of a name and domain: all bare, or with the numbers of a mask without a brush."""
     name, domain = form
     mesh = cast(bpy.types.Mesh, obj.data)
-    said = "Black is covered, white is bare"
+    said = _legend(mask if source else masks.Mask())
     count = len(mesh.vertices) if domain == "POINT" else len(mesh.loops)
     shares = np.ones(count, np.float32)
     if source is not None:
@@ -152,6 +152,12 @@ def _new_for_brush(
     else:
         settings.channel, settings.source = "MEAN", made
     return f"{said}: painting {made!r}."
+
+
+def _legend(mask: masks.Mask, low: str = "Black", high: str = "white") -> str:
+    """What to paint with."""
+    covered, bare = ("bare", "covered") if mask.invert else ("covered", "bare")
+    return f"{low} is {covered}, {high} is {bare}"
 
 
 def _set(settings: Any, name: str) -> None:

@@ -34,13 +34,15 @@ def uv_map_names(owner: Any, context: bpy.types.Context, text: str) -> list[str]
 def show_mask(owner: Any, context: bpy.types.Context | None) -> None:
     """Have a tan that is there show what the settings of its object's masks are now."""
     obj = owner.id_data
+    if obj.type != "MESH":  # a script may set what it likes
+        return
     mask_nodes.show_at_once(obj, obj.skin_tan.shown_mask())
 
 
 def take_source(owner: Any, context: bpy.types.Context) -> None:
     """Of a name that was chosen, take the image if it stands for one."""
     obj, name = owner.id_data, owner.source
-    if owner.image is None or owner.image.name != name:
+    if obj.type == "MESH" and (owner.image is None or owner.image.name != name):
         image = masks.image_named(obj, name)
         if owner.image != image:
             owner.image = image
@@ -54,7 +56,8 @@ def take_image(owner: Any, context: bpy.types.Context) -> None:
     """Name the image that was chosen as the source; without one, the source is none either."""
     obj, image = owner.id_data, owner.image
     name = image.name if image else owner.source
-    if image is None and masks.source_of(obj, masks.Mask(name), None) is None:
+    is_mesh = obj.type == "MESH"
+    if is_mesh and image is None and masks.source_of(obj, masks.Mask(name), None) is None:
         name = ""
     if owner.source != name:
         owner.source = name

@@ -294,15 +294,17 @@ def test_a_mask_for_the_brush_is_bare_and_set(domain):
     assert len(body.data.color_attributes) == 2
 
 
-def test_numbers_without_a_brush_are_copied():
+def test_numbers_without_a_brush_are_copied(capfd):
     body = sphere(1)
     body.data.attributes.new("shade", "FLOAT", "POINT")
     values = np.linspace(0.0, 1.0, len(body.data.vertices), dtype=np.float32)
     body.data.attributes["shade"].data.foreach_set("value", values)
     mask = settings_of(body).mask
-    mask.source, mask.strength = "shade", 0.5
+    mask.source, mask.strength, mask.invert = "shade", 0.5, True
     before = shares(body)
     bpy.ops.skin_tan.paint_mask(name="Mine")
+    said = "'shade' was copied, for Blender has no brush for it. Black is bare, white is covered"
+    assert said in capfd.readouterr().out
     assert mask.source == "Mine" and mask.strength == 0.5
     assert shares(body) == pytest.approx(before)
     assert "shade" in body.data.attributes

@@ -1,13 +1,17 @@
 """Whatever can be a mask: rendered, the share of the dose is its number."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
 from scenes import add_camera, apply, of_role, render, tan_group, tan_object
 
-from blender_addon.scene import masks, vertex_groups
+from blender_addon.props.mask import usable_names
+from blender_addon.scene import mask_nodes, masks, vertex_groups
 from blender_addon.scene.changes import Changes
 
+DATA = Path(__file__).parents[1] / "data"
 VALUES = np.array([0.0, 0.25, 0.6, 1.0])
 
 
@@ -249,6 +253,24 @@ def test_the_name_of_version_0_1_0_is_the_source(body):
     assert settings.mask_attribute == "shade"
 
 
+def test_a_file_of_an_earlier_version_has_its_mask(tmp_path):
+    """By its former name alone, until another one is chosen."""
+    bpy.ops.wm.open_mainfile(filepath=str(DATA / "layout_1.blend"))
+    settings = bpy.data.objects["Body"].skin_tan
+    assert settings.mask.source == "" and settings.object_mask().source == "sun"
+    settings.mask.source = "Other"
+    settings.mask.source = ""
+    assert not settings.object_mask()
+
+
+def test_settings_of_what_is_no_mesh_take_any_mask():
+    light = bpy.data.objects.new("Light", bpy.data.lights.new("Light", "POINT"))
+    light.skin_tan.mask.source = "shade"
+    light.skin_tan.mask.image = bpy.data.images.new("Photo", 4, 4)
+    light.skin_tan.mask.image = None
+    light.skin_tan.mask.strength = 0.5
+
+
 def test_an_exposure_s_own_mask(body, tmp_path):
     add_attribute(body, "FLOAT", "POINT")
     exposure = body.skin_tan.exposures[0]
@@ -288,6 +310,8 @@ def test_what_is_on_offer(body):
         "made": "Number, points, by a modifier",
     }
     assert offered == expected
+    mask = body.skin_tan.mask
+    assert dict(usable_names(mask, bpy.context, "")) == expected
     body.data.uv_layers.new()
     offered = masks.usable_sources(body, masks.current_depsgraph())
     assert {item.name for item in offered} == {*expected, "Photo"}
@@ -321,3 +345,23 @@ def test_an_image_needs_a_uv_map_and_pixels(body):
     image.reload()
     with pytest.raises(RuntimeError, match="'Photo', which is the mask, has no pixels; its file"):
         apply(body)
+
+
+def test_an_error_leaves_mesh_and_nodes_as_they_were(body):
+    apply(body)
+    group = tan_group(body)
+    add_group(body)
+    image = add_image(body)
+
+    def state() -> tuple:
+        nodes = {(node.name, getattr(node, "attribute_name", "")) for node in group.nodes}
+        links = {(link.from_node.name, link.to_node.name) for link in group.links}
+        return nodes, links, set(body.data.attributes.keys()), dict(body.data)
+
+    before = state()
+    for mask in (masks.Mask("Skirt"), masks.Mask(image=image)):
+        with pytest.raises(ZeroDivisionError), Changes() as changes:
+            mask_nodes.show(group, mask_nodes.shown_mask(body, mask, changes), changes)
+            assert state() != before
+            raise ZeroDivisionError
+        assert state() == before

@@ -272,3 +272,16 @@ def test_the_view_of_the_file_is_pressed(table_path):
     assert drawn(kind) == ["[1650 nm]"]
     del obj.skin_tan.group["skin_tan_view"]  # as skin that could not switch has it
     assert drawn(kind)[1:] == ["This skin shows another view:", "press the button to see why"]
+
+
+def test_a_mask_that_is_gone_is_marked(table_path):
+    obj = tan_object(table_path, [0.0, 1.0])
+    gone = "The mesh has no such mask any more:"
+    assert gone not in drawn()
+    obj.data.attributes["sun"].name = "shade"
+    assert gone in drawn()
+    exposure = obj.skin_tan.exposures[0]
+    obj.skin_tan.mask.source = "shade"
+    assert gone not in drawn()
+    exposure.own_mask, exposure.mask.source = True, "absent"
+    assert gone in drawn()

@@ -16,20 +16,29 @@ SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())
 BIOLOGY = "biology"
 """Property that changes the look and nothing else."""
 
+SKIN = frozenset("skin table_path".split())
+"""Properties that say whose look it is."""
+
 SEPARATOR = "\n"
 
 
 def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """All that decides an object's look, in three lines: schedule, biology, and the rest."""
+    """All that decides an object's look, in lines: schedule, biology, skin, and the rest."""
     settings = settings_of(obj)
     names = [prop.identifier for prop in settings.bl_rna.properties]
-    kept = [name for name in names if name not in NOTES]
-    schedule = [_value(settings, name) for name in kept if name in SCHEDULE]
-    biology = _value(settings, BIOLOGY)
-    rest = [_value(settings, name) for name in kept if name not in (*SCHEDULE, BIOLOGY)]
+    others = {*NOTES, *SCHEDULE, *SKIN, BIOLOGY}
+    schedule, skin, rest = (
+        [_value(settings, name) for name in kept]
+        for kept in (
+            [name for name in names if name in SCHEDULE],
+            [name for name in names if name in SKIN],
+            [name for name in names if name not in others],
+        )
+    )
     render, units = scene.render, scene.unit_settings
     frames = scene.frame_start, scene.frame_end, render.fps, render.fps_base
-    lines = schedule, biology, (rest, frames, units.system, units.scale_length)
+    biology = _value(settings, BIOLOGY)
+    lines = schedule, biology, skin, (rest, frames, units.system, units.scale_length)
     return SEPARATOR.join(map(repr, lines))
 
 
@@ -45,8 +54,8 @@ def digest(text: str) -> str:
 
 
 def look_digest(text: str) -> str:
-    """Digest of all in a text but the schedule, which a look does not know."""
-    return digest(SEPARATOR.join(text.split(SEPARATOR)[1:]))
+    """Digest of the biology and the skin in a text."""
+    return digest(SEPARATOR.join(text.split(SEPARATOR)[1:3]))
 
 
 def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:

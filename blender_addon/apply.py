@@ -85,8 +85,10 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
-        source = applied.digest(applied.text_of(obj, scene))
-        images.note_content((sampled.states, sampled.places), source)
+        text = applied.text_of(obj, scene)
+        images.note_content((sampled.states, sampled.places), applied.digest(text))
+        if rough and settings.biology.is_changed():
+            images.note_shown(sampled.look.values(), applied.look_digest(text))
         if not rough:
             applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)

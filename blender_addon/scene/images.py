@@ -113,6 +113,12 @@ def note_content(fresh: Iterable[bpy.types.Image], content: str) -> None:
         image[SHOWN] = image[LASTING] = content
 
 
+def note_shown(shown: Iterable[bpy.types.Image], content: str) -> None:
+    """Note in images what their pixels come from, which are for a moment only."""
+    for image in shown:
+        image[SHOWN] = content
+
+
 def restore(image: bpy.types.Image, content: str) -> bool:
     """Have an image show what it holds after an undo, if that comes from `content`."""
     if image.get(LASTING) != content:

@@ -6,6 +6,7 @@ import pytest
 from scenes import apply, of_role, pixels, tan_object
 
 from blender_addon import applied, live
+from blender_addon.model import catalogue
 from blender_addon.model.tan import history_of, look_of
 
 FEW, MANY = 60, 500
@@ -25,7 +26,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(6)
+        kind = self.random.integers(7)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -35,6 +36,8 @@ class Artist:
         elif kind == 3:
             exposure = settings.exposures[0]
             exposure.enabled = not exposure.enabled
+        elif kind == 4:
+            settings.biology.blood = float(self.random.choice([1.0, 1.5, 2.0]))
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 
@@ -95,8 +98,8 @@ def run(seed: int, folder, steps: int) -> None:
 
 
 @pytest.fixture
-def tanned(table_path):
-    apply(tan_object(table_path))
+def tanned():
+    apply(tan_object(catalogue.shipped_path("III")))
     bpy.ops.ed.undo_push(message="applied")
 
 

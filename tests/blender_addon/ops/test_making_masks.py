@@ -115,6 +115,15 @@ def test_pose_modifiers_and_units_count():
     assert len(bpy.data.objects) == count and len(body.modifiers) == 2
 
 
+def test_a_garment_with_the_body_s_own_points_has_no_holes():
+    """Where rays go through its points and edges, as through garments that are fitted."""
+    body, garment = sphere(), sphere()
+    garment.scale = (1.05,) * 3
+    select(body, garment)
+    bpy.ops.skin_tan.mask_from_clothes()
+    assert shares(body).max() == 0.0
+
+
 def test_what_mpfb_deletes_under_a_garment_is_covered():
     body, garment = sphere(), band(0.2, "Anna.fancy shirt.001")
     body.vertex_groups.new(name="Delete.fancy_shirt").add(range(50), 1.0, "REPLACE")

@@ -1,6 +1,7 @@
 """Times light transport, tanning and tables on this machine: `make bench`."""
 
 import argparse
+import itertools
 import multiprocessing
 import os
 import resource
@@ -11,8 +12,13 @@ from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
+from blender_addon.model.catalogue import shipped_path
+from blender_addon.model.look import look
 from examples import bench_tables
+from hylios.changed_table import changed_table
+from hylios.skin.biology import Biology
 from hylios.skin.specimen import SPECIMENS
+from hylios.table import minimal_doses, read_table
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
 
@@ -86,6 +92,21 @@ def report_tanning() -> None:
     print(f"  a hundred of them equal to the last bit those made alone: {same}")
 
 
+def report_biology() -> None:
+    """Processor time of a slider of biology: the changed table while it is dragged, and at rest."""
+    table = read_table(shipped_path("III"))
+    minimal = minimal_doses(table.provenance)
+    for way, rough in (("dragged", True), ("at rest", False)):
+        blood = itertools.count(1.1, 0.01)
+        seconds = timed(
+            lambda rough=rough, blood=blood: look(
+                changed_table(table, Biology(blood=next(blood)), rough=rough), minimal
+            ),
+            clock=time.process_time,
+        )
+        report(f"biology {way}, the look", [1e3 * one for one in seconds], "ms")
+
+
 def main() -> None:
     """Measure and print."""
     print(f"{os.cpu_count()} cores; median, least and most of {REPEATS} runs")
@@ -102,6 +123,7 @@ def main() -> None:
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
     report_tanning()
+    report_biology()
     bench_tables.main()
 
 

@@ -10,7 +10,7 @@ from .ownership import MADE, names
 
 PREFIX = "Skin Tan "
 
-NEW_SKIN = {"Relief": 1.0, "Variation": 1.0, "Oil": 0.25}
+NEW_SKIN = {"Relief": 1.0, "Variation": 1.0, "Oil": 0.15}
 """Sliders of a new material; all 0 is the even, dry skin of the light model."""
 
 

@@ -5,6 +5,7 @@
 - `views`: has all skin of a file show one band of light.
 - `apply`: takes an object's settings through `model` to `scene`.
 - `props`, `ops`, `ui`: what an artist sets, the buttons, the panels.
+- `translations`: what they say in other languages.
 
 Imports go one way: ui -> ops -> apply -> views -> props -> model and scene. What Apply leaves in a
 file needs neither this add-on nor scripts. This module imports no bpy, so that `model` can be used

@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from . import live, ops, painting, props, ui
+from . import live, ops, painting, props, translations, ui
 
 FOLDER = str(Path(__file__).parent)
 """With the presets that the add-on brings."""
@@ -23,6 +23,7 @@ def register():
     scenes: Any = bpy.types.Scene
     scenes.skin_tan = bpy.props.PointerProperty(type=props.SkinTanScene)
     bpy.utils.register_preset_path(FOLDER)
+    translations.register()
     live.register()
     painting.register()
 
@@ -32,6 +33,7 @@ def unregister():
     ui.forget_curve()
     painting.unregister()
     live.unregister()
+    translations.unregister()
     bpy.utils.unregister_preset_path(FOLDER)
     objects: Any = bpy.types.Object
     del objects.skin_tan

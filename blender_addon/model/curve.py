@@ -12,6 +12,7 @@ from hylios.tanning.spread import spread_of
 from . import catalogue
 from .biology import table_with
 from .history import DRAG, History
+from .lines import Line
 from .settings import TanSettings
 from .tan import history_of
 
@@ -110,12 +111,14 @@ def words(curve: Curve) -> tuple[str, ...]:
     darkest = curve.darkest
     if curve.untanned - curve.lightness[darkest] < PLAIN:
         return ("No tan that can be seen",)
-    first = f"Darkest on day {curve.days[darkest]:.0f},"
+    first = Line("Darkest on day {darkest:.0f},", darkest=curve.days[darkest])
     half = curve.half_gone
     if half is None:
-        return (first, f"not half gone by day {curve.days[-1]:.0f}")
-    gone = f", gone by day {curve.gone:.0f}" if curve.gone is not None else ""
-    return (first, f"half gone by day {half:.0f}{gone}")
+        return (first, Line("not half gone by day {last:.0f}", last=curve.days[-1]))
+    if curve.gone is None:
+        return (first, Line("half gone by day {half:.0f}", half=half))
+    both = Line("half gone by day {half:.0f}, all by {gone:.0f}", half=half, gone=curve.gone)
+    return (first, both)
 
 
 WIDTH, HEIGHT, STRIP = 240, 200, 36

@@ -2,6 +2,8 @@
 
 import math
 
+from .lines import Line
+
 SMALLEST, LARGEST = 0.025, 3.0
 """Lengths in metres between which a person, or a part of one that is shown alone, measures.
 
@@ -38,5 +40,11 @@ def lines_on(length: float) -> tuple[str, ...]:
     if is_a_person_s(length):
         return ()
     if length > LARGEST:
-        return (f"{length:.3g} m is too large for a person:", "its skin hardly scatters light")
-    return (f"{1000.0 * length:.2g} mm is too small for a person:", "its skin glows like wax")
+        return (
+            Line("{length:.3g} m is too large for a person:", length=length),
+            "its skin hardly scatters light",
+        )
+    return (
+        Line("{length:.2g} mm is too small for a person:", length=1000.0 * length),
+        "its skin glows like wax",
+    )

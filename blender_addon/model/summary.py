@@ -11,6 +11,7 @@ from hylios.errors import InputError
 from hylios.table.provenance import MinimalDoses, minimal_doses
 
 from . import catalogue, doses
+from .lines import Line
 from .settings import Exposure
 
 SED_PER_HOUR_OF_SUMMER_SUN = 7.2
@@ -30,18 +31,20 @@ def of_table(path: Path) -> tuple[str, ...]:
     """
     minimal = minimal_doses(catalogue.provenance(path))
     return (
-        f"Tans from {minimal.mmd:.1f} SED of sun,",
-        f"burns from {minimal.med:.1f} SED (estimates)",
+        Line("Tans from {mmd:.1f} SED of sun,", mmd=minimal.mmd),
+        Line("burns from {med:.1f} SED (estimates)", med=minimal.med),
     )
 
 
 def of_exposure(exposure: Exposure) -> str:
     """An exposure in a few characters."""
     return {
-        "SED": f"{exposure.dose:g} SED",
-        "MMD": f"{exposure.multiple:g} tanning doses",
-        "UV_INDEX": f"UV {exposure.uv_index:g}, {exposure.duration:g} h",
-        "SUN": f"Sun {exposure.from_hour:g}-{exposure.to_hour:g} h",
+        "SED": Line("{dose:g} SED", dose=exposure.dose),
+        "MMD": Line("{multiple:g} tanning doses", multiple=exposure.multiple),
+        "UV_INDEX": Line(
+            "UV {index:g}, {hours:g} h", index=exposure.uv_index, hours=exposure.duration
+        ),
+        "SUN": Line("Sun {start:g}-{end:g} h", start=exposure.from_hour, end=exposure.to_hour),
     }.get(exposure.unit, "Unknown unit")
 
 
@@ -79,7 +82,7 @@ def _of_dose(
         return str(error)
     meter, tanning = received.erythemal.sum(), received.melanogenesis.sum()
     hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
-    lines = [f"{meter:.3g} SED: {hours:.1f} h of strong summer sun"]
+    lines = [Line("{meter:.3g} SED: {hours:.1f} h of strong sun", meter=meter, hours=hours)]
     if exposure.unit == "SUN":
-        lines.append(f"tans like {tanning:.3g} SED (provisional)")
+        lines.append(Line("tans like {tanning:.3g} SED (provisional)", tanning=tanning))
     return tuple(lines)

@@ -48,7 +48,7 @@ class SkinTanBiology(bpy.types.PropertyGroup):
     )
     oxygenation: _slider(
         "oxygenation",
-        "Oxygen (%)",
+        "Oxygen",
         "How much more of the blood carries oxygen than in the skin type, in percentage points. "
         "More is rosier, less is bluer",
     )

@@ -7,8 +7,10 @@ import bpy
 from hylios.errors import InputError
 
 from ..model import summary
+from ..model.lines import Line
 from ..model.settings import Exposure
 from ..props import SkinTanSettings, settings_of
+from ..translations import told
 from .lines import draw_lines
 from .masks import draw_mask
 
@@ -30,8 +32,8 @@ class SKIN_TAN_UL_exposures(bpy.types.UIList):  # noqa: N801
         if item.name:
             split.prop(item, "name", text="", emboss=False)
         else:
-            split.label(text=summary.of_exposure(Exposure.of(item)))
-        split.label(text=f"Day {item.day:g}")
+            split.label(text=told(summary.of_exposure(Exposure.of(item))))
+        split.label(text=told(Line("Day {day:g}", day=item.day)))
 
 
 class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801

@@ -5,12 +5,14 @@ from typing import Any, cast
 import bpy
 
 from ..applied import is_changed
+from ..model.lines import Line
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
 from ..scene.timeline import shown_day
 from .biology import draw_biology
 from .curve import draw_curve
 from .exposures import draw_exposures
+from .lines import draw_lines
 from .masks import draw_object_mask
 from .materials import draw_materials
 from .presets import SKIN_TAN_PT_schedule_presets, SKIN_TAN_PT_skin_presets
@@ -46,7 +48,7 @@ class _Main:
         row.operator("skin_tan.apply", icon="MATERIAL")
         day = shown_day(obj)
         if day is not None:
-            layout.label(text=f"This frame shows day {day:.1f}", icon="TIME")
+            draw_lines(layout, (Line("This frame shows day {day:.1f}", day=day),), "TIME")
         if settings.group is None:
             return
         draw_curve(layout, settings)

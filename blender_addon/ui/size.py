@@ -4,6 +4,7 @@ import bpy
 
 from hylios.errors import InputError
 
+from ..model.lines import Line
 from ..model.size import lines_on
 from ..props import settings_of
 from ..scene import size
@@ -30,5 +31,7 @@ def size_lines(obj: bpy.types.Object, scene: bpy.types.Scene) -> tuple[str, ...]
         return ()  # Apply says it
     if lines or size.is_right(times):
         return lines
-    far = f"{times:.3g} times too far" if times > 1.0 else f"{1.0 / times:.3g} times too short"
-    return ("Units or scale changed since Apply:", f"light in the skin goes {far}")
+    far = Line("light goes {times:.3g} times too far", times=times)
+    if times < 1.0:
+        far = Line("light goes {times:.3g} times too short", times=1.0 / times)
+    return ("Units or scale changed since Apply:", far)

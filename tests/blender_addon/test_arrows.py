@@ -8,7 +8,8 @@ import pytest
 ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
-    "registration.py": {"live", "ops", "painting", "props", "ui"},
+    "registration.py": {"live", "ops", "painting", "props", "translations", "ui"},
+    "translations.py": {"model"},
     "painting.py": {"scene"},
     "masking.py": {"scene", "props", "hylios.errors"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
@@ -31,7 +32,9 @@ SUBJECTS = {
         *("props", "model"),
         *("hylios.errors", "hylios.files"),
     },
-    "ui": {"ui", "applied", "ops", "props", "model", "scene", "hylios.errors"},
+    "ui": {
+        *("ui", "applied", "ops", "props", "model", "scene", "translations", "hylios.errors"),
+    },
 }
 """What each room may import of the add-on and of hylios."""
 

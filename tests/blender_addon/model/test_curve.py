@@ -54,11 +54,11 @@ def test_words_name_the_darkest_day_and_the_day_by_which_half_is_gone():
     assert np.interp(made.half_gone, made.days, made.lightness) == pytest.approx(half, abs=0.01)
     darkest, gone = curve.words(made)
     assert darkest == f"Darkest on day {made.days[made.darkest]:.0f},"
-    assert gone == f"half gone by day {made.half_gone:.0f}, gone by day {made.gone:.0f}"
+    assert gone == f"half gone by day {made.half_gone:.0f}, all by {made.gone:.0f}"
     left = made.untanned - np.interp([made.gone, 60.0], made.days, made.lightness)
     assert left[0] == pytest.approx(curve.PLAIN, abs=0.01) and left[1] < curve.PLAIN
     longer = curve.curve_of(replace(SETTINGS, last_day=35.0))
-    assert longer.gone is None and "gone by day 35" not in curve.words(longer)[1]
+    assert longer.gone is None and "all by 35" not in curve.words(longer)[1]
     short = curve.curve_of(replace(SETTINGS, last_day=12.0))
     assert curve.words(short)[1] == "not half gone by day 12"
     none = curve.curve_of(replace(SETTINGS, exposures=()))

@@ -72,7 +72,7 @@ def test_units_that_change_after_apply_are_mended(tanned, table_path):
     bpy.context.view_layer.update()
     assert lines(tanned) == (
         "Units or scale changed since Apply:",
-        "light in the skin goes 10 times too short",
+        "light goes 10 times too short",
     )
     keys = tanned.animation_data.action
     bpy.context.view_layer.objects.active = tanned
@@ -126,7 +126,7 @@ def test_an_artist_s_own_shader_scatters_as_he_set_it(table_path):
 
 def test_a_scale_that_the_artist_sets_waits_for_the_button(tanned):
     tanned.skin_tan.model_scale = 2.0
-    assert lines(tanned)[1] == "light in the skin goes 2 times too short"
+    assert lines(tanned)[1] == "light goes 2 times too short"
     fit()
     assert lines(tanned) == () and tanned.skin_tan.model_scale == 2.0
 

@@ -119,7 +119,7 @@ def test_with_every_setting(table_path):
     labels = drawn()
     assert "Tans from 4.9 SED of sun," in labels
     assert "burns from 2.9 SED (estimates)" in labels
-    assert "30 SED: 4.2 h of strong summer sun" in labels
+    assert "30 SED: 4.2 h of strong sun" in labels
     bpy.ops.skin_tan.apply()
     assert "This frame shows day 0.0" in drawn()
 
@@ -127,9 +127,9 @@ def test_with_every_setting(table_path):
 @pytest.mark.parametrize(
     ("unit", "line", "label"),
     [
-        ("MMD", "2 tanning doses", "9.8 SED: 1.4 h of strong summer sun"),
-        ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong summer sun"),
-        ("SUN", "Sun 11-15 h", "29.3 SED: 4.1 h of strong summer sun"),
+        ("MMD", "2 tanning doses", "9.8 SED: 1.4 h of strong sun"),
+        ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong sun"),
+        ("SUN", "Sun 11-15 h", "29.3 SED: 4.1 h of strong sun"),
     ],
 )
 def test_every_unit_says_what_reaches_the_skin(table_path, unit, line, label):
@@ -153,7 +153,7 @@ def test_a_multiple_is_of_the_dose_that_is_set_by_hand(table_path):
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].unit = "MMD"
     obj.skin_tan.own_minimal_doses, obj.skin_tan.mmd = True, 7.2
-    assert "14.4 SED: 2.0 h of strong summer sun" in drawn()
+    assert "14.4 SED: 2.0 h of strong sun" in drawn()
 
 
 def test_the_sun_says_that_its_dose_is_provisional(table_path):
@@ -276,7 +276,7 @@ def test_the_view_of_the_file_is_pressed(table_path):
 
 def test_a_mask_that_is_gone_is_marked(table_path):
     obj = tan_object(table_path, [0.0, 1.0])
-    gone = "The mesh has no such mask any more:"
+    gone = "The mesh no longer has this mask:"
     assert gone not in drawn()
     obj.data.attributes["sun"].name = "shade"
     assert gone in drawn()

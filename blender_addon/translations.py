@@ -1,0 +1,147 @@
+"""The add-on in other languages, by Blender's own translations."""
+
+import bpy
+
+from .model.lines import Line
+
+GERMAN = {
+    # buttons
+    "Apply Tan": "Bräune anwenden",
+    "Remove Tan": "Bräune entfernen",
+    "Copy Tan to Selected": "Bräune auf Auswahl kopieren",
+    "Find Skin Materials": "Hautmaterialien suchen",
+    "Paint Mask": "Maske malen",
+    "From Clothes": "Aus Kleidung",
+    "Match Colour": "Nach Farbe",
+    "Match Painted Skin": "Nach gemalter Haut",
+    "Choose Skin Type": "Hauttyp wählen",
+    "Reset Biology": "Biologie zurücksetzen",
+    "Copy Build Command": "Baubefehl kopieren",
+    "Add Exposure": "Besonnung hinzufügen",
+    "Duplicate Exposure": "Besonnung duplizieren",
+    "Move Exposure": "Besonnung verschieben",
+    "Remove Exposure": "Besonnung entfernen",
+    "Import CSV": "CSV importieren",
+    "Export CSV": "CSV exportieren",
+    "Export for lut-builder": "Für lut-builder exportieren",
+    "Fit Skin to Size": "Haut an Größe anpassen",
+    "Darkest Day": "Dunkelster Tag",
+    "Reset Timing": "Zeiten zurücksetzen",
+    # panels
+    "Skin Tan": "Hautbräune",
+    "Skin": "Haut",
+    "Biology": "Biologie",
+    "Time in the Sun": "Zeit in der Sonne",
+    "Times in the Sun": "Zeiten in der Sonne",
+    "Where the Sun Reaches": "Wohin die Sonne kommt",
+    "Timeline": "Zeitleiste",
+    "Materials That Tan": "Bräunende Materialien",
+    "On the Skin": "Auf der Haut",
+    "View of All Skin": "Ansicht aller Haut",
+    "Skin Presets": "Hautvorlagen",
+    "Schedule Presets": "Zeitplanvorlagen",
+    # the skin
+    "Type I, very light": "Typ I, sehr hell",
+    "Type II, light": "Typ II, hell",
+    "Type III, intermediate": "Typ III, mittel",
+    "Type IV, tan": "Typ IV, oliv",
+    "Type V, brown": "Typ V, braun",
+    "Type VI, dark": "Typ VI, dunkel",
+    "Table File": "Tabellendatei",
+    "Set Sensitivity by Hand": "Empfindlichkeit selbst setzen",
+    "Tans from (SED)": "Bräunt ab (SED)",
+    "Burns from (SED)": "Rötet ab (SED)",
+    "Melanin": "Melanin",
+    "Eumelanin": "Eumelanin",
+    "Pheomelanin": "Phäomelanin",
+    "Blood": "Blut",
+    "Oxygen": "Sauerstoff",
+    "Thickness": "Dicke",
+    # exposures
+    "Given as": "Angabe",
+    "Dose": "Dosis",
+    "Dose (SED)": "Dosis (SED)",
+    "Tanning Doses": "Bräunungsdosen",
+    "UV Index": "UV-Index",
+    "Sun": "Sonne",
+    "Hours": "Stunden",
+    "Day": "Tag",
+    "Month": "Monat",
+    "Latitude": "Breite",
+    "From": "Von",
+    "To": "Bis",
+    "Sunscreen": "Sonnencreme",
+    "SPF": "LSF",
+    "Own Mask": "Eigene Maske",
+    # masks and films
+    "Mask": "Maske",
+    "Channel": "Kanal",
+    "Strength": "Stärke",
+    "Invert": "Umkehren",
+    "Brightness": "Helligkeit",
+    "Film": "Film",
+    "Dry": "Trocken",
+    "Water": "Wasser",
+    "Oil": "Öl",
+    # the timeline, materials and views
+    "Live": "Live",
+    "Scene's Frames": "Bilder der Szene",
+    "Start and Speed": "Beginn und Tempo",
+    "Two Frames": "Zwei Bilder",
+    "Own Keys": "Eigene Keyframes",
+    "at Frame": "bei Bild",
+    "Days per Second": "Tage pro Sekunde",
+    "Reset": "Zurücksetzen",
+    "New Material": "Neues Material",
+    "Model Scale": "Maßstab",
+    "Visible": "Sichtbar",
+    # lines
+    "This frame shows day {day:.1f}": "Dieses Bild zeigt Tag {day:.1f}",
+    "Day {day:g}": "Tag {day:g}",
+    "Select a mesh object": "Ein Mesh-Objekt auswählen",
+    "Changed: Apply Tan shows it": "Geändert: bitte anwenden",
+    "Add a time in the sun with +": "Mit + eine Zeit hinzufügen",
+    "Tans from {mmd:.1f} SED of sun,": "Bräunt ab {mmd:.1f} SED Sonne,",
+    "burns from {med:.1f} SED (estimates)": "rötet ab {med:.1f} SED (geschätzt)",
+    "{dose:g} SED": "{dose:g} SED",
+    "{multiple:g} tanning doses": "{multiple:g} Bräunungsdosen",
+    "UV {index:g}, {hours:g} h": "UV {index:g}, {hours:g} h",
+    "Sun {start:g}-{end:g} h": "Sonne {start:g}-{end:g} h",
+    "{meter:.3g} SED: {hours:.1f} h of strong sun": "{meter:.3g} SED: {hours:.1f} h starke Sonne",
+    "tans like {tanning:.3g} SED (provisional)": "bräunt wie {tanning:.3g} SED (vorläufig)",
+    "No tan that can be seen": "Keine sichtbare Bräune",
+    "Darkest on day {darkest:.0f},": "Am dunkelsten an Tag {darkest:.0f},",
+    "not half gone by day {last:.0f}": "an Tag {last:.0f} nicht halb fort",
+    "half gone by day {half:.0f}": "halb fort an Tag {half:.0f}",
+    "half gone by day {half:.0f}, all by {gone:.0f}": "halb fort: Tag {half:.0f}, ganz: {gone:.0f}",
+    "No mask: the whole body is bare": "Keine Maske: alles ist bloß",
+    "No mask: it lies everywhere": "Keine Maske: liegt überall",
+    "The mesh no longer has this mask:": "Dem Mesh fehlt diese Maske:",
+    "choose another one": "eine andere wählen",
+    "No material: a new skin is made": "Kein Material: neue Haut",
+    "Light spreads as in the skin type;": "Licht läuft wie im Hauttyp;",
+    "exactly, in a table built anew:": "genau in einer neuen Tabelle:",
+}
+"""German by English. What Blender itself translates need not be here."""
+
+CONTEXTS = ("*", "Operator")
+"""Blender looks for the words of buttons in a context of their own."""
+
+DICTIONARY = {
+    "de_DE": {(context, text): told for text, told in GERMAN.items() for context in CONTEXTS}
+}
+
+
+def told(text: str) -> str:
+    """A line in the language of the interface. Blender itself translates what has no values."""
+    if not isinstance(text, Line):
+        return text
+    return bpy.app.translations.pgettext_iface(text.message).format(**text.values)
+
+
+def register() -> None:
+    bpy.app.translations.register(__name__, DICTIONARY)
+
+
+def unregister() -> None:
+    bpy.app.translations.unregister(__name__)

@@ -14,7 +14,7 @@ import numpy as np
 
 from blender_addon.model.catalogue import shipped_path
 from blender_addon.model.look import look
-from examples import bench_tables
+from examples import bench_history, bench_tables
 from hylios.changed_table import changed_table
 from hylios.skin.biology import Biology
 from hylios.skin.specimen import SPECIMENS
@@ -124,6 +124,7 @@ def main() -> None:
 
     report_tanning()
     report_biology()
+    bench_history.main()
     bench_tables.main()
 
 

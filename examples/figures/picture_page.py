@@ -29,10 +29,11 @@ SAID = {
 HEAD = """\
 # The thesis's pictures
 
-Each is made by one command, as `make figures FIGURES=6.9`, in less than three minutes of two cores,
-and stands here beside what the thesis says should be seen. With `PAGE=docs/thesis_pictures.md` and
-all their names that command writes this page. [What came back of the thesis](thesis_figures.md) has
-the other figures, and what was assumed.
+Each is made by one command, as `make figures FIGURES=6.9`, and stands here beside what the thesis
+says should be seen. That takes 22 to 98 seconds of processor time (6.29 longest, of 34 renders),
+and took two minutes at most on two cores that others used too. With `PAGE=docs/thesis_pictures.md`
+and all their names that command writes this page.
+[What came back of the thesis](thesis_figures.md) has the other figures, and what was assumed.
 
 In 6.9 to 6.12, 6.19 and 6.20 each skin is solved at its own wavelength; the material has a near
 share, Burley's profile for the rest, and the surface's gloss (`examples/figures/spectral_*.py`).

@@ -1,4 +1,4 @@
-"""Times light transport, tanning and tables on this machine: `make bench`."""
+"""Times light transport, tanning, tables and the add-on on this machine: `make bench`."""
 
 import argparse
 import itertools
@@ -6,9 +6,12 @@ import multiprocessing
 import os
 import resource
 import statistics
+import subprocess
+import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -126,6 +129,15 @@ def main() -> None:
     report_biology()
     bench_history.main()
     bench_tables.main()
+    report_blender()
+
+
+def report_blender() -> None:
+    """The add-on's times, in a process of its own, as Blender brings its own libraries."""
+    if find_spec("bpy") is None:
+        print("no Blender here: nothing is said of the add-on")
+        return
+    subprocess.run([sys.executable, "-m", "examples.bench_blender"], check=True)
 
 
 if __name__ == "__main__":

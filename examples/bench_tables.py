@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from examples.bench_lines import ranged, report
 from hylios.adding.spectrum import spectrum as solved
 from hylios.lab.colour import rec709_weights
 from hylios.skin import Skin
@@ -64,17 +65,6 @@ def spent(work, repeats: int) -> tuple[Spent, object]:
         clock.append(time.perf_counter() - starts[0])
         processor.append(time.process_time() - starts[1])
     return Spent(clock, processor), result
-
-
-def ranged(seconds: list[float]) -> str:
-    """Median, and least and most where there are several runs."""
-    text = f"{np.median(seconds):.3g}"
-    return f"{text} ({min(seconds):.3g} to {max(seconds):.3g})" if len(seconds) > 1 else text
-
-
-def report(what: str, measured: str, limit: str, within: bool) -> None:
-    """Print a line: a measurement, its limit, and whether it is within."""
-    print(f"{what:<58} {measured}; must be {limit}: {'yes' if within else 'NO'}", flush=True)
 
 
 def report_spectra(skin: Skin) -> None:

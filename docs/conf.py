@@ -32,7 +32,7 @@ default_role = "code"
 highlight_language = "none"  # most blocks are shells; Python says so
 
 myst_enable_extensions = ["colon_fence", "html_image"]
-myst_heading_anchors = 3
+myst_heading_anchors = 4
 
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True

@@ -7,7 +7,9 @@ import bpy
 from .props import SkinTanSettings, settings_of
 from .scene.changes import Changes
 
-NOTES = frozenset("rna_type name group material keyed applied undone exposure_index live".split())
+NOTES = frozenset(
+    "rna_type name group material keyed applied undone exposure_index region_index live".split()
+)
 """Properties of an object that do not change its look."""
 
 SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())

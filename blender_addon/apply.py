@@ -10,10 +10,11 @@ from . import applied, several, timing
 from .model import doses
 from .model.film import film_of
 from .model.look import untanned_colour
+from .model.regions import kinds
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
-from .props import settings_of
+from .props import SkinTanSettings, settings_of
 from .scene import (
     detail,
     film,
@@ -25,6 +26,7 @@ from .scene import (
     masks,
     nodes,
     recolour,
+    regions,
     size,
     slots,
     timeline,
@@ -34,6 +36,7 @@ from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.painted import is_like_skin, painted_colour
 from .scene.plan import LOOK
+from .scene.region_nodes import Region, Spots
 from .scene.several import made_images as made_of_masks
 from .views import keep_view, remember_source
 
@@ -55,8 +58,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     """
     obj = tannable(obj)
     settings = settings_of(obj)
-    for mask in {*settings.masks(), settings.shown_mask(), settings.worn_film_mask()}:
-        masks.require_usable(obj, mask)
+    _require_masks(obj)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)
     values = settings.values()
@@ -71,6 +73,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
         sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
+        regions.show(obj, skin.group, _regions(settings), unit, changes)
         replaced = nodes.update(skin.group, sampled, changes)
         mask = settings.shown_mask()
         shown = mask_nodes.shown_mask(obj, mask, changes)
@@ -205,6 +208,27 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
 def _film(name: str, roughness: float) -> film.Film | None:
     """The film of a setting, on skin with a shader's roughness."""
     return None if name == "NONE" else film.Film(**vars(film_of(name.lower(), roughness)))
+
+
+def _require_masks(obj: bpy.types.Object) -> None:
+    """Raise InputError unless all masks of an object can be used."""
+    settings = settings_of(obj)
+    of_regions = (masks.Mask.of(region.mask) for region in settings.shown_regions())
+    others = settings.shown_mask(), settings.worn_film_mask()
+    for mask in {*settings.masks(), *others, *of_regions}:
+        masks.require_usable(obj, mask)
+
+
+def _regions(settings: SkinTanSettings) -> list[regions.Placed]:
+    """The regions of settings, as nodes show them."""
+    placed = []
+    for item in settings.shown_regions():
+        kind = kinds()[item.kind.lower()]
+        spots = Spots(**vars(kind.spots)) if item.has_spots() else None
+        label = item.bl_rna.properties["kind"].enum_items[item.kind].name
+        numbers = kind.melanin, kind.blood, kind.tan, item.strength
+        placed.append(regions.Placed(Region(label, *numbers, spots), masks.Mask.of(item.mask)))
+    return placed
 
 
 def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: Tan) -> list[str]:

@@ -11,6 +11,7 @@ from .exposures import (
 from .masks import SKIN_TAN_OT_mask_from_clothes, SKIN_TAN_OT_paint_mask
 from .materials import SKIN_TAN_OT_list_materials
 from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_add
+from .regions import SKIN_TAN_OT_add_region, SKIN_TAN_OT_remove_region
 from .remove import SKIN_TAN_OT_remove
 from .schedule import SKIN_TAN_OT_export_schedule
 from .size import SKIN_TAN_OT_fit_size
@@ -29,6 +30,8 @@ CLASSES = (
     SKIN_TAN_OT_duplicate_exposure,
     SKIN_TAN_OT_move_exposure,
     SKIN_TAN_OT_remove_exposure,
+    SKIN_TAN_OT_add_region,
+    SKIN_TAN_OT_remove_region,
     SKIN_TAN_OT_list_materials,
     SKIN_TAN_OT_paint_mask,
     SKIN_TAN_OT_mask_from_clothes,

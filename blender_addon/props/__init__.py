@@ -6,6 +6,7 @@ from .mask import SkinTanFilmMask, SkinTanMask
 from .material import SkinTanMaterial
 from .object import SkinTanSettings, settings_of, table_file
 from .overriding import overridable
+from .region import SkinTanRegion, SkinTanRegionMask
 from .scene import SkinTanScene
 
 __all__ = [
@@ -15,6 +16,8 @@ __all__ = [
     "SkinTanFilmMask",
     "SkinTanMask",
     "SkinTanMaterial",
+    "SkinTanRegion",
+    "SkinTanRegionMask",
     "SkinTanScene",
     "SkinTanSettings",
     "settings_of",
@@ -30,6 +33,8 @@ CLASSES = (
             SkinTanFilmMask,
             SkinTanExposure,
             SkinTanMaterial,
+            SkinTanRegionMask,
+            SkinTanRegion,
             SkinTanSettings,
         ),
     ),

@@ -40,6 +40,7 @@ from .biology import SkinTanBiology
 from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask, take_attribute, usable_names
 from .material import SkinTanMaterial
+from .region import SkinTanRegion, is_shown
 from .skins import SKIN_ITEMS, USUAL_SKIN
 
 FILMS = (
@@ -189,6 +190,8 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         description="Where the film lies; without a mask it lies everywhere",
         type=SkinTanFilmMask,
     )
+    regions: CollectionProperty(type=SkinTanRegion)
+    region_index: IntProperty(name="Active Region", options={"HIDDEN"})
     mask: PointerProperty(
         name="Mask",
         description="Where the sun reaches, for all exposures without a mask of their own",
@@ -311,6 +314,10 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     def worn_film_mask(self) -> Mask:
         """Where the film lies; no mask where there is no film."""
         return Mask() if self.film == "NONE" else Mask.of(self.film_mask)
+
+    def shown_regions(self) -> list[SkinTanRegion]:
+        """The regions that change anything, in their order."""
+        return [region for region in self.regions if is_shown(region)]
 
     def masks(self) -> tuple[Mask, ...]:
         """The masks of the exposures that count, in their order."""

@@ -166,14 +166,26 @@ def set_size(trees: list[Any], obj: bpy.types.Object, scene_unit: float, changes
     scene_unit : float
         Length of a scene unit in metres.
     """
-    mesh: Any = obj.data
-    scale = np.abs(np.array(obj.matrix_world.to_scale()))
-    size = 2000.0 * scene_unit * np.array(mesh.texspace_size) * scale
+    size = millimetres(obj, scene_unit)
     for tree in trees:
         for node in tree.nodes:
             if node.get(DETAIL_KEY) and node.inputs.get(SIZE) is not None:
-                changes.set(node.inputs[SIZE], "default_value", tuple(size))
+                changes.set(node.inputs[SIZE], "default_value", size)
                 changes.set(node.inputs["Millimetre"], "default_value", 0.001 / scene_unit)
+
+
+def millimetres(obj: bpy.types.Object, scene_unit: float) -> tuple[float, float, float]:
+    """Size in mm of the box in which Blender's generated coordinates of an object go from 0 to 1.
+
+    Parameters
+    ----------
+    scene_unit : float
+        Length of a scene unit in metres.
+    """
+    mesh: Any = obj.data
+    scale = np.abs(np.array(obj.matrix_world.to_scale()))
+    x, y, z = (2000.0 * scene_unit * np.array(mesh.texspace_size) * scale).tolist()
+    return x, y, z
 
 
 def remove_unused_group() -> None:

@@ -5,7 +5,7 @@ not fill it. Beneath it the skin has another base colour, and hardly any gloss o
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -112,8 +112,7 @@ def where(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask:
     InputError
         If the mask cannot be used.
     """
-    slope, offset = (-mask.strength, mask.strength) if mask.invert else (mask.strength, 0.0)
-    return replace(mask_nodes.shown_mask(obj, mask, changes), slope=slope, offset=offset)
+    return mask_nodes.where_it_lies(obj, mask, changes)
 
 
 NOWHERE = ShownMask(slope=0.0)

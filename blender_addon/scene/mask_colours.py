@@ -85,6 +85,7 @@ def _is_shared(obj: bpy.types.Object, name: str) -> bool:
         return True
     settings: Any = cast(Any, obj).skin_tan
     masks = [settings.mask, *(item.mask for item in settings.exposures if item.own_mask)]
+    masks += [region.mask for region in settings.regions]
     return sum(mask.source == name for mask in masks) > 1
 
 

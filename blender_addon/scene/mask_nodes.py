@@ -94,6 +94,18 @@ def shown_mask(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask
     return ShownMask(name, None, "", weights, alpha, slope, offset)
 
 
+def where_it_lies(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask:
+    """What nodes read of a mask of what lies on the skin: its number times its strength.
+
+    Raises
+    ------
+    InputError
+        If the mask cannot be used.
+    """
+    slope, offset = (-mask.strength, mask.strength) if mask.invert else (mask.strength, 0.0)
+    return replace(shown_mask(obj, mask, changes), slope=slope, offset=offset)
+
+
 def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: str = "") -> None:
     """Have the nodes of a mask read something else; those of another mask by their prefix."""
     if shown.image is not None and any(of_role(group, prefix + "mask_value")):

@@ -327,6 +327,8 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "look_column": melanin,
         "look_row": blood,
         "thickness": _between(sampled.thickness, 0.0, 1.0),
+        "region_column": melanin,
+        "region_row": blood,
         "untanned_place": {"X": _mapped(melanin, 1.0), "Y": _mapped(blood, 0.0)},
         "gain": {2: (sampled.level,) * 3},
         "near_scaled": {"Scale": 1.0 / low if sampled.near_weight > 0.0 else 0.0},

@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import bpy
 
-from . import detail, nodes, recolour, several, slots, vertex_groups, views
+from . import detail, nodes, recolour, regions, several, slots, vertex_groups, views
 from .alike import alike
 from .changes import Changes
 from .images import MARK
@@ -173,6 +173,7 @@ def _remove_group(group: Any, made: list[bpy.types.Image]) -> None:
     """Remove a tan's group and its images, and the relief of skin, where nothing shows them."""
     if group is not None and _is_valid(group) and group.users == 0:
         several.remove_nodes(group)
+        regions.remove_nodes(group)
         bpy.data.node_groups.remove(group)
     for image in dict.fromkeys(made):
         if image.users == 0 and MARK in image:

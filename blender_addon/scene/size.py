@@ -7,7 +7,7 @@ import numpy as np
 
 from hylios.errors import require_range
 
-from . import detail, nodes, slots
+from . import detail, nodes, regions, slots
 from .changes import Changes
 from .ownership import is_local, remembered
 
@@ -80,6 +80,7 @@ def fit(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None
         changes.set(node.outputs[0], "default_value", nodes.radius_of_millimetre(unit))
     if group is not None:
         detail.set_size(list(slots.shown_trees(obj, group)), obj, unit, changes)
+        regions.set_size(group, obj, unit, changes)
 
 
 def _radii(group: Any) -> list[Any]:

@@ -134,7 +134,8 @@ def mask_names(obj: bpy.types.Object) -> set[str]:
     settings = remembered(obj)
     own = (exposure.mask.source for exposure in settings.exposures if exposure.own_mask)
     sources = settings.mask.source, settings.mask_attribute, settings.film_mask.source
-    return {*sources, *own} - {""}
+    regions = (region.mask.source for region in settings.regions)
+    return {*sources, *own, *regions} - {""}
 
 
 def _copies(mesh: bpy.types.Mesh) -> dict[str, str]:

@@ -4,10 +4,11 @@ from typing import Any, cast
 
 import bpy
 
-from ..props import SkinTanFilmMask, SkinTanMask, settings_of
+from ..props import SkinTanFilmMask, SkinTanMask, SkinTanRegionMask, settings_of
 from ..scene import masks
 from .lines import draw_lines
 
+AnyMask = SkinTanMask | SkinTanFilmMask | SkinTanRegionMask
 BARE = "No mask: the whole body is bare"
 
 
@@ -28,11 +29,11 @@ def draw_object_mask(
 def draw_mask(
     layout: bpy.types.UILayout,
     obj: bpy.types.Object,
-    settings: SkinTanMask | SkinTanFilmMask,
+    settings: AnyMask,
     context: bpy.types.Context,
     without: str = BARE,
 ) -> None:
-    """A mask of the selected exposure or of the film, and what it means to have none."""
+    """A mask of the selected exposure or region, or of the film, and what having none means."""
     layout.prop(settings, "source", text="", icon="MOD_MASK")
     if isinstance(settings, SkinTanMask):
         _draw_makers(layout, "EXPOSURE")
@@ -50,7 +51,7 @@ def _draw_makers(layout: bpy.types.UILayout, target: str) -> None:
 def _draw_reading(
     layout: bpy.types.UILayout,
     obj: bpy.types.Object,
-    settings: SkinTanMask | SkinTanFilmMask,
+    settings: AnyMask,
     mask: masks.Mask,
     context: bpy.types.Context,
     without: str,
@@ -70,5 +71,6 @@ def _draw_reading(
     if source.has_channels:
         layout.prop(settings, "channel")
     row = layout.row(align=True)
-    row.prop(settings, "strength")
+    if not isinstance(settings, SkinTanRegionMask):  # a region has its own
+        row.prop(settings, "strength")
     row.prop(settings, "invert")

@@ -16,6 +16,7 @@ from .lines import draw_lines
 from .masks import draw_object_mask
 from .materials import draw_materials
 from .presets import SKIN_TAN_PT_schedule_presets, SKIN_TAN_PT_skin_presets
+from .regions import draw_regions
 from .size import draw_size
 from .skin import draw_film, draw_skin
 from .timeline import draw_timeline
@@ -120,6 +121,13 @@ class _Materials(_Section):
         draw_materials(_layout(self), _mesh(context))
 
 
+class _Regions(_Section):
+    bl_label = "Regions"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_regions(_layout(self), _mesh(context), context)
+
+
 class _Film(_Section):
     bl_label = "On the Skin"
 
@@ -147,6 +155,10 @@ class VIEW3D_PT_skin_tan_skin(_Sidebar, _Skin, bpy.types.Panel):  # noqa: N801
 
 
 class VIEW3D_PT_skin_tan_biology(_Sidebar, _Biology, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "VIEW3D_PT_skin_tan_skin"
+
+
+class VIEW3D_PT_skin_tan_regions(_Sidebar, _Regions, bpy.types.Panel):  # noqa: N801
     bl_parent_id = "VIEW3D_PT_skin_tan_skin"
 
 
@@ -186,6 +198,10 @@ class MATERIAL_PT_skin_tan_biology(_MaterialTab, _Biology, bpy.types.Panel):  # 
     bl_parent_id = "MATERIAL_PT_skin_tan_skin"
 
 
+class MATERIAL_PT_skin_tan_regions(_MaterialTab, _Regions, bpy.types.Panel):  # noqa: N801
+    bl_parent_id = "MATERIAL_PT_skin_tan_skin"
+
+
 class MATERIAL_PT_skin_tan_exposures(_MaterialTab, _Exposures, bpy.types.Panel):  # noqa: N801
     bl_parent_id = "MATERIAL_PT_skin_tan"
 
@@ -210,6 +226,7 @@ SIDEBAR = (
     VIEW3D_PT_skin_tan,
     VIEW3D_PT_skin_tan_skin,
     VIEW3D_PT_skin_tan_biology,
+    VIEW3D_PT_skin_tan_regions,
     VIEW3D_PT_skin_tan_exposures,
     VIEW3D_PT_skin_tan_mask,
     VIEW3D_PT_skin_tan_timeline,
@@ -220,6 +237,7 @@ MATERIAL_TAB = (
     MATERIAL_PT_skin_tan,
     MATERIAL_PT_skin_tan_skin,
     MATERIAL_PT_skin_tan_biology,
+    MATERIAL_PT_skin_tan_regions,
     MATERIAL_PT_skin_tan_exposures,
     MATERIAL_PT_skin_tan_mask,
     MATERIAL_PT_skin_tan_timeline,

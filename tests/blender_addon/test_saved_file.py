@@ -44,6 +44,8 @@ def test_the_render_needs_no_add_on(tmp_path, table_path, view, materials):
     bare = body.vertex_groups.new(name="Bare")
     bare.add([vertex.index for vertex in body.data.vertices if vertex.co.x > 0], 1.0, "REPLACE")
     body.skin_tan.mask.source = "Bare"
+    body.skin_tan.regions.add().kind = "FRECKLES"
+    bpy.ops.skin_tan.add_region(kind="FLUSH", strength=0.1, mask="Bare")
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     bpy.context.scene.skin_tan.view = view
     white_world()

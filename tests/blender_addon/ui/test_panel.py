@@ -7,7 +7,7 @@ import pytest
 from scenes import tan_object
 
 from blender_addon.model import catalogue, doses
-from blender_addon.ui import exposures, panel, view
+from blender_addon.ui import panel, view
 from lut_builder.exr_writer import write_table
 
 ICONS = {
@@ -67,10 +67,9 @@ class Layout:
         assert icon in ICONS and hasattr(bpy.types, panel)
 
     def template_list(self, kind, identifier, data, name, active_data, active_name, *, rows):
-        assert hasattr(bpy.types, kind)
         assert name in data.bl_rna.properties and active_name in active_data.bl_rna.properties
         for item in getattr(data, name):
-            exposures.SKIN_TAN_UL_exposures.draw_item(
+            getattr(bpy.types, kind).draw_item(
                 None, bpy.context, Layout(self.labels), data, item, 0, active_data, active_name
             )
 
@@ -122,6 +121,16 @@ def test_with_every_setting(table_path):
     assert "30 SED: 4.2 h of strong sun" in labels
     bpy.ops.skin_tan.apply()
     assert "This frame shows day 0.0" in drawn()
+
+
+def test_a_region_says_where_it_lies(table_path):
+    obj = tan_object(table_path)
+    bpy.ops.skin_tan.add_region(kind="FRECKLES")
+    assert "No mask: they are everywhere" in drawn()
+    obj.skin_tan.regions[0].painted = True
+    assert "No mask: it is nowhere" in drawn()
+    bpy.ops.skin_tan.add_region(kind="LIPS", mask="mouth")
+    assert "The mesh no longer has this mask:" in drawn()
 
 
 @pytest.mark.parametrize(

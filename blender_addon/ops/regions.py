@@ -1,0 +1,68 @@
+"""The buttons beside the list of regions."""
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from ..model.regions import MOST_STRENGTH
+from ..props.region import KIND_ITEMS
+from .active import active_mesh, active_settings
+
+SELECTED = -1
+"""Stands for the region that is selected in the list."""
+
+
+class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.add_region"
+    bl_label = "Add Region"
+    bl_description = (
+        "Add freckles, moles, palms and soles, lips, flush or vitiligo. Freckles and moles come by "
+        "themselves; the others lie where their mask is"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: EnumProperty(name="Kind", items=KIND_ITEMS, default="FRECKLES")
+    strength: FloatProperty(
+        name="Strength",
+        description="1 is usual, 0 is nothing",
+        default=1.0,
+        min=0.0,
+        max=MOST_STRENGTH,
+    )
+    mask: StringProperty(
+        name="Mask",
+        description="Vertex group, attribute or image that says where the region lies",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None
+
+    def execute(self, context):
+        settings = active_settings(context)
+        added = settings.regions.add()
+        added.kind, added.strength = self.kind, self.strength
+        added.mask.source = self.mask
+        settings.region_index = len(settings.regions) - 1
+        return {"FINISHED"}
+
+
+class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.remove_region"
+    bl_label = "Remove Region"
+    bl_description = "Remove the selected region; its mask stays on the mesh"
+    bl_options = {"REGISTER", "UNDO"}
+
+    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        return active_mesh(context) is not None and len(active_settings(context).regions) > 0
+
+    def execute(self, context):
+        settings = active_settings(context)
+        last = len(settings.regions) - 1
+        wanted = settings.region_index if self.index == SELECTED else self.index
+        settings.regions.remove(max(0, min(wanted, last)))
+        settings.region_index = max(0, min(settings.region_index, last - 1))
+        return {"FINISHED"}

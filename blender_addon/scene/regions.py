@@ -1,0 +1,187 @@
+"""Regions of the skin: nodes that a tan's group gets when it has some, and loses with the last.
+
+One node, a group of its own, tells how much melanin and blood the regions have over the skin around
+them, and how much they tan. It shifts the state from which the skin's look follows, and likewise
+the untanned state, so that Ratio is what a region's own tan does.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import bpy
+
+from . import mask_nodes, nodes, region_nodes
+from .changes import Changes
+from .detail import millimetres
+from .masks import Mask
+from .ownership import is_local
+from .plan import ROLE_KEY, Link, Role, math_role
+from .region_nodes import Region
+
+ROLES = {
+    "regions": Role("ShaderNodeGroup", "Regions", (0, 500)),
+    "region_tan": math_role("MULTIPLY", "Tan of regions", (100, 420)),
+    "region_melanin": math_role("MULTIPLY", "Melanin of regions", (250, 420)),
+    "region_blood": math_role("ADD", "Blood of regions", (400, -220)),
+    "region_root": math_role("SQRT", "Root of untanned melanin", (200, 900)),
+    "region_column": math_role("MULTIPLY_ADD", "Untanned melanin to column", (400, 900)),
+    "region_row": Role("ShaderNodeMapRange", "Untanned blood to row", (400, 700), {"clamp": True}),
+}
+
+LINKS: tuple[Link, ...] = (
+    ("state", "X", "region_tan", 0),
+    ("regions", "Tan", "region_tan", 1),
+    ("region_tan", "Value", "melanin", 0),
+    ("melanin", "Value", "region_melanin", 0),
+    ("regions", "Melanin", "region_melanin", 1),
+    ("region_melanin", "Value", "more_melanin", 0),
+    ("blood", "Value", "region_blood", 0),
+    ("regions", "Blood", "region_blood", 1),
+    ("region_blood", "Value", "look_row", "Value"),
+    ("regions", "Melanin", "region_root", 0),
+    ("region_root", "Value", "region_column", 0),
+    ("region_column", "Value", "untanned_place", "X"),
+    ("regions", "Blood", "region_row", "Value"),
+    ("region_row", "Result", "untanned_place", "Y"),
+)
+
+REPLACED: tuple[Link, ...] = (
+    ("state", "X", "melanin", 0),
+    ("melanin", "Value", "more_melanin", 0),
+    ("blood", "Value", "look_row", "Value"),
+)
+"""Links of a group without regions whose place others take."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A region as an artist has set it, before its mask is looked up.
+
+    Attributes
+    ----------
+    region : Region
+    mask : Mask
+        Where it lies; without one it is everywhere.
+    """
+
+    region: Region
+    mask: Mask
+
+
+def where(obj: bpy.types.Object, mask: Mask, changes: Changes) -> mask_nodes.ShownMask | None:
+    """What nodes read of a region's mask: as much as its number; None for everywhere.
+
+    Raises
+    ------
+    InputError
+        If the mask cannot be used.
+    """
+    return mask_nodes.where_it_lies(obj, mask, changes) if mask else None
+
+
+def show(
+    obj: bpy.types.Object,
+    group: Any,
+    placed: Iterable[Placed],
+    scene_unit: float,
+    changes: Changes,
+) -> None:
+    """Have a tan's group show regions, or none.
+
+    The nodes of regions that have not changed stay as they are, with what an artist edited there.
+
+    Parameters
+    ----------
+    scene_unit : float
+        Length of a scene unit in metres, on a body of life-size.
+
+    Raises
+    ------
+    InputError
+        If a mask cannot be used.
+    """
+    shown = [(item.region, where(obj, item.mask, changes)) for item in placed]
+    if not shown:
+        take_out(group, changes)
+        return
+    node = next(nodes.of_role(group, "regions"), None)
+    if node is None or not _is_up_to_date(node.node_tree, shown):
+        tree = region_nodes.new_tree(f"Skin Tan Regions {obj.name}", shown, changes)
+        node = _added(group, tree, changes) if node is None else _replaced(group, tree, changes)
+    set_size(group, obj, scene_unit, changes)
+
+
+def set_size(group: Any, obj: bpy.types.Object, scene_unit: float, changes: Changes) -> None:
+    """Tell the spots of a group's regions how large an object is."""
+    for node in nodes.of_role(group, "regions"):
+        if node.node_tree is not None:
+            for inner in nodes.of_role(node.node_tree, region_nodes.PLACE):
+                changes.set(inner.inputs[1], "default_value", millimetres(obj, scene_unit))
+
+
+def take_out(group: Any, changes: Changes) -> None:
+    """Have a tan's group show no regions; it is as it was before the first one."""
+    if not any(nodes.of_role(group, "regions")):
+        return
+    changes.may_relink(group)
+    ours = {role: list(nodes.of_role(group, role)) for role in ROLES}
+    for source, output, target, socket in REPLACED:
+        for node in nodes.of_role(group, target):
+            end = nodes.find_input(node, socket)
+            if any(former.from_node.get(ROLE_KEY) in ROLES for former in end.links):
+                for start in nodes.of_role(group, source):
+                    group.links.new(nodes.find_output(start, output), end)
+    changes.at_the_end(partial(remove_nodes, group, [n for made in ours.values() for n in made]))
+
+
+def remove_nodes(group: Any, going: Iterable[Any] | None = None) -> None:
+    """Remove the nodes of regions from a group, and their own group where nothing shows it."""
+    for node in list(nodes.of_role(group, "regions")) if going is None else list(going):
+        tree = getattr(node, "node_tree", None)
+        group.nodes.remove(node)
+        _remove_unused(tree)
+
+
+def _is_up_to_date(tree: Any, shown: list) -> bool:
+    """Whether a group for regions is that of these, and of one tan alone."""
+    return (
+        tree is not None
+        and is_local(tree)
+        and tree.users == 1
+        and tree.get(region_nodes.SHOWN_KEY) == region_nodes.told(shown)
+    )
+
+
+def _added(group: Any, tree: Any, changes: Changes) -> Any:
+    changes.may_add_to(group.nodes)
+    changes.may_relink(group)
+    for role in ROLES:
+        nodes.new_node(group, role, ROLES)
+    node = next(nodes.of_role(group, "regions"))
+    node.node_tree = tree
+    for source, _, target, socket in REPLACED:
+        for kept in nodes.of_role(group, target):
+            for former in list(nodes.find_input(kept, socket).links):
+                if former.from_node.get(ROLE_KEY) == source:
+                    group.links.remove(former)
+    nodes.link(group, ROLES, LINKS)
+    return node
+
+
+def _replaced(group: Any, tree: Any, changes: Changes) -> Any:
+    changes.may_relink(group)
+    for node in nodes.of_role(group, "regions"):
+        former = node.node_tree
+        ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
+        changes.set(node, "node_tree", tree)
+        for name, end in ends:
+            group.links.new(node.outputs[name], end)
+        changes.at_the_end(partial(_remove_unused, former))
+    return next(nodes.of_role(group, "regions"))
+
+
+def _remove_unused(tree: Any) -> None:
+    if tree is not None and tree.users == 0:
+        bpy.data.node_groups.remove(tree)

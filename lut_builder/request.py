@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from hylios.adding import spectra
-from hylios.adding.absorptance import tabulated
+from hylios.adding.absorptance import STEP_NM, tabulated
 from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
@@ -102,8 +102,9 @@ class Piece:
 
 def pieces(request: Request) -> list[Piece]:
     """All pieces of a request, the longest first."""
+    step = request.settings.absorptance_step
     listed = [
-        Piece("absorptance", "absorptance", ULTRAVIOLET_SECONDS),
+        Piece("absorptance", "absorptance", ULTRAVIOLET_SECONDS * STEP_NM / step),
         *_profiles(request),
         *_colours(request),
     ]
@@ -139,7 +140,8 @@ def computed(request: Request, piece: Piece) -> dict[str, np.ndarray]:
 
 
 def _absorbed(request: Request) -> dict[str, np.ndarray]:
-    table = tabulated(request.skin.specimen, model=request.model)
+    step = request.settings.absorptance_step
+    table = tabulated(request.skin.specimen, model=request.model, step_nm=step)
     return {"wavelengths": table.wavelengths, "values": table.values}
 
 

@@ -82,6 +82,11 @@ def test_the_header_holds_what_the_untanned_skin_absorbs(small):
     assert told["values"] == pytest.approx(expected.values, abs=1e-5)
 
 
+def test_a_preview_tabulates_it_in_coarser_steps():
+    assert PRESETS["preview"].absorptance_step == 6.0
+    assert PRESETS["standard"].absorptance_step == PRESETS["reference"].absorptance_step == 2.0
+
+
 @pytest.mark.parametrize(
     ("change", "planes"),
     [

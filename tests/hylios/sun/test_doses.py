@@ -45,6 +45,17 @@ def test_a_specimen_is_tabulated_once():
     assert absorptance.wavelengths[[0, -1]] == pytest.approx([280.0, 400.0])
 
 
+def test_a_step_of_six_nanometres_changes_doses_of_the_sun_by_less_than_a_thousandth():
+    fine, coarse = (tabulated(SPECIMENS["S3"], step_nm=step) for step in (2.0, 6.0))
+    assert coarse.wavelengths.size == 21 and 298.0 in coarse.wavelengths
+    for place in (0.0, 60.0):
+        expected, told = (of_sun(SUMMER, 10, 16, place, skin) for skin in (fine, coarse))
+        assert told.melanogenesis == pytest.approx(expected.melanogenesis, rel=1e-3)
+        assert told.thickening == pytest.approx(expected.thickening, rel=1e-3)
+    with pytest.raises(InputError, match="step between wavelengths is 0"):
+        tabulated(SPECIMENS["S3"], step_nm=0.0)
+
+
 @pytest.mark.parametrize("dose", [melanogenesis_dose, thickening_dose])
 def test_a_joule_of_298_nm_is_a_hundredth_sed(dose):
     assert dose(NM, line(298.0), SKIN) == pytest.approx(1.0, rel=1e-12)

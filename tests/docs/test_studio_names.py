@@ -14,6 +14,7 @@ OF_A_DIALOG = {"filter_glob"}
 
 HEADINGS = {
     "### Settings": props.SkinTanSettings,
+    "#### A region": props.SkinTanRegion,
     "#### An exposure": props.SkinTanExposure,
     "#### A mask": props.SkinTanMask,
     "#### Biology": props.SkinTanBiology,
@@ -65,5 +66,6 @@ def test_all_settings_are_on_the_page(heading):
     assert named - {"name"} == settings_of(HEADINGS[heading])
 
 
-def test_a_film_has_the_settings_of_a_mask():
-    assert settings_of(props.SkinTanFilmMask) == settings_of(props.SkinTanMask)
+def test_films_and_regions_have_the_settings_of_a_mask():
+    wanted = settings_of(props.SkinTanMask)
+    assert settings_of(props.SkinTanFilmMask) == settings_of(props.SkinTanRegionMask) == wanted

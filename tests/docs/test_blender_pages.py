@@ -64,7 +64,8 @@ def test_a_painted_mask_and_the_scripts_of_the_studio(archive, tmp_path):
         capture_output=True,
         text=True,
         cwd=tmp_path,
-        env={**os.environ, "BLENDER_USER_RESOURCES": str(tmp_path)},
+        # Blender 4.5 takes relative paths from PWD
+        env={**os.environ, "BLENDER_USER_RESOURCES": str(tmp_path), "PWD": str(tmp_path)},
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "tanned" in done.stdout

@@ -1,5 +1,7 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
+from typing import Any
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -118,7 +120,7 @@ def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
     """Linear colour (3,) that the artist gave to the skin of an object, if that can be told."""
     ticked = slots.ticks(obj, skins.group_of(obj))
     colours = [painted_colour(obj, material) for material, tans in ticked.items() if tans]
-    skin = [colour for colour in colours if is_like_skin(colour)]
+    skin = [colour for colour in colours if colour is not None and is_like_skin(colour)]
     return np.median(skin, axis=0) if skin else None
 
 
@@ -225,7 +227,8 @@ def _regions(settings: SkinTanSettings) -> list[regions.Placed]:
     for item in settings.shown_regions():
         kind = kinds()[item.kind.lower()]
         spots = Spots(**vars(kind.spots)) if item.has_spots() else None
-        label = item.bl_rna.properties["kind"].enum_items[item.kind].name
+        offered: Any = item.bl_rna.properties["kind"]
+        label = offered.enum_items[item.kind].name
         numbers = kind.melanin, kind.blood, kind.tan, item.strength
         placed.append(regions.Placed(Region(label, *numbers, spots), masks.Mask.of(item.mask)))
     return placed

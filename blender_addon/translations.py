@@ -1,5 +1,7 @@
 """The add-on in other languages, by Blender's own translations."""
 
+from typing import Any, cast
+
 import bpy
 
 from .model.lines import Line
@@ -149,11 +151,12 @@ def told(text: str) -> str:
     """A line in the language of the interface. Blender itself translates what has no values."""
     if not isinstance(text, Line):
         return text
-    return bpy.app.translations.pgettext_iface(text.message).format(**text.values)
+    message: Any = bpy.app.translations.pgettext_iface(text.message)
+    return message.format(**text.values)
 
 
 def register() -> None:
-    bpy.app.translations.register(__name__, DICTIONARY)
+    bpy.app.translations.register(__name__, cast(Any, DICTIONARY))
 
 
 def unregister() -> None:

@@ -262,21 +262,39 @@ def _shapes(
     curves: NDArray[np.float32], counts: NDArray[np.int_], precision: BasisPrecision
 ) -> tuple[Shapes, NDArray[np.float32], float]:
     """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
-    ranks = RANKS if precision.rank is None else (precision.rank,)
-    for rank in ranks:
-        those = np.arange(min(TRAINING, len(curves)))
-        for _ in range(2):
-            weights = counts[those] ** 0.25
-            shapes = principal_shapes(curves[those], rank, weights, precision.rounds)
-            coefficients = shapes.coefficients(curves)
-            errors = np.abs(shapes.curves(coefficients) - curves)
-            worst = errors.max(axis=1)
-            if worst.max() <= WANTED["most"] or len(those) == len(curves):
-                break
-            those = np.union1d(those, np.argsort(-worst)[:WORST])
-        if _is_enough(errors, counts, worst):
-            break
-    return shapes, coefficients, float(worst.max())
+    *first, last = RANKS if precision.rank is None else (precision.rank,)
+    for rank in first:
+        shapes, coefficients, errors = _of_rank(curves, counts, rank, precision)
+        if _is_enough(errors, counts, errors.max(axis=1)):
+            return shapes, coefficients, float(errors.max())
+    shapes, coefficients, errors = _of_rank(curves, counts, last, precision)
+    return shapes, coefficients, float(errors.max())
+
+
+def _of_rank(
+    curves: NDArray[np.float32], counts: NDArray[np.int_], rank: int, precision: BasisPrecision
+) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
+    """Shapes of some curves, once more with the worst of the others; coefficients; all errors."""
+    those = np.arange(min(TRAINING, len(curves)))
+    fitted = _fitted(curves, counts, those, rank, precision)
+    worst = fitted[2].max(axis=1)
+    if worst.max() <= WANTED["most"] or len(those) == len(curves):
+        return fitted
+    those = np.union1d(those, np.argsort(-worst)[:WORST])
+    return _fitted(curves, counts, those, rank, precision)
+
+
+def _fitted(
+    curves: NDArray[np.float32],
+    counts: NDArray[np.int_],
+    those: NDArray[np.int_],
+    rank: int,
+    precision: BasisPrecision,
+) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
+    """Shapes of those curves; coefficients and errors of all."""
+    shapes = principal_shapes(curves[those], rank, counts[those] ** 0.25, precision.rounds)
+    coefficients = shapes.coefficients(curves)
+    return shapes, coefficients, np.abs(shapes.curves(coefficients) - curves)
 
 
 def _is_enough(errors: NDArray, counts: NDArray, worst: NDArray) -> bool:

@@ -102,7 +102,7 @@ def inside_in_view(
         raise InputError(f"the table has no band at {view.nm:g} nm; its bands: {listed}")
     surface = 1.0 - float(let_through(roughness_of(table), NORMAL_ANGLE))
     inside = np.maximum(reflectance[..., bands.index(view.nm)] - surface, 0.0)
-    return inside[..., None] * np.array(view.tint)
+    return np.asarray(inside[..., None] * np.array(view.tint), float)
 
 
 def left_by_film(liquid: str, view: View) -> float:

@@ -63,7 +63,7 @@ class _Main:
 class _Section:
     """A sub-panel on one subject of the active mesh."""
 
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_options: Any = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -72,7 +72,7 @@ class _Section:
 
 class _Skin(_Section):
     bl_label = "Skin"
-    bl_options: set[str] = set()
+    bl_options: Any = set()
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         SKIN_TAN_PT_skin_presets.draw_panel_header(_layout(self))
@@ -90,7 +90,7 @@ class _Biology(_Section):
 
 class _Exposures(_Section):
     bl_label = "Time in the Sun"
-    bl_options: set[str] = set()
+    bl_options: Any = set()
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         SKIN_TAN_PT_schedule_presets.draw_panel_header(_layout(self))
@@ -101,7 +101,7 @@ class _Exposures(_Section):
 
 class _Mask(_Section):
     bl_label = "Where the Sun Reaches"
-    bl_options: set[str] = set()
+    bl_options: Any = set()
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_object_mask(_layout(self), _mesh(context), context)

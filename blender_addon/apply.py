@@ -121,7 +121,7 @@ def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
     ticked = slots.ticks(obj, skins.group_of(obj))
     colours = [painted_colour(obj, material) for material, tans in ticked.items() if tans]
     skin = [colour for colour in colours if colour is not None and is_like_skin(colour)]
-    return np.median(skin, axis=0) if skin else None
+    return np.median(np.array(skin), axis=0) if skin else None
 
 
 def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:

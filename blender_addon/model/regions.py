@@ -82,7 +82,7 @@ class Kind:
         u, b, weight = (np.asarray(values, float) for values in (u, b, weight))
         blood = b + weight * np.log(self.blood)
         if self.melanin == 0.0:
-            return np.exp(u) * np.maximum(1.0 - weight, 0.0), blood
+            return np.asarray(np.exp(u) * np.maximum(1.0 - weight, 0.0), float), blood
         exponent = 1.0 + (self.tan - 1.0) * np.minimum(weight, 1.0)
         return np.exp(u * exponent) * self.melanin**weight, blood
 

@@ -3,7 +3,8 @@
 A region of weight w (its strength times its mask) has the melanin exp(u (1 + (t - 1) min(w, 1)))
 f^w, where u is the tan around it as a logarithm, f the region's `melanin` and t its `tan`; without
 melanin (f = 0) it is exp(u) (1 - w). Blood is changed by its factor to the power w. Regions that
-lie over each other multiply.
+lie over each other multiply. In spots w is the strength, more in some and less in others; by the
+mask there are fewer of them.
 """
 
 import functools
@@ -23,7 +24,7 @@ class Spots:
     Attributes
     ----------
     least, largest : float
-        Diameters in mm; most are small.
+        Diameters of the balls in mm, most of them small; seen are discs of them.
     edge : float
         Width of the soft edge within them, in mm.
     apart : float
@@ -39,7 +40,7 @@ class Spots:
     held: float
 
     def share_of_area(self, strength: float) -> float:
-        """Share of the skin that spots cover: as of the space (Delesse), none being cut short."""
+        """Share of the skin that spots cover: that of space (Delesse), if none cut another."""
         ratio = self.largest / self.least - 1.0
         # Mean of (1 + ratio x^2)^3, x even between 0 and 1.
         cube = 1.0 + ratio + 0.6 * ratio**2 + ratio**3 / 7.0

@@ -116,7 +116,7 @@ def spots_shown(obj, folder, pixels: int) -> np.ndarray:
 
 @pytest.mark.parametrize("strength", [0.5, 1.0])
 def test_freckles_cover_the_share_of_the_skin_that_the_table_says(tmp_path, table_path, strength):
-    """On 24 cm of skin; those that would overlap cut each other, so it is 4 % less."""
+    """On 24 cm of skin; those that would overlap cut each other, so it is 4 to 7 % less."""
     obj = tan_object(table_path, dose=0.0)
     obj.scale = (0.24, 0.24, 0.24)
     bpy.context.view_layer.update()

@@ -1,7 +1,5 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
-from typing import Any
-
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -227,10 +225,10 @@ def _regions(settings: SkinTanSettings) -> list[regions.Placed]:
     for item in settings.shown_regions():
         kind = kinds()[item.kind.lower()]
         spots = Spots(**vars(kind.spots)) if item.has_spots() else None
-        offered: Any = item.bl_rna.properties["kind"]
-        label = offered.enum_items[item.kind].name
         numbers = kind.melanin, kind.blood, kind.tan, item.strength
-        placed.append(regions.Placed(Region(label, *numbers, spots), masks.Mask.of(item.mask)))
+        placed.append(
+            regions.Placed(Region(item.label(), *numbers, spots), masks.Mask.of(item.mask))
+        )
     return placed
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from hylios.errors import InputError
 
-from .props import SkinTanMask, settings_of
+from .props import SkinTanMask, SkinTanRegionMask, settings_of
 from .scene import clothes, mask_colours, mask_values, masks, posed, vertex_groups
 from .scene.changes import Changes
 from .scene.ownership import names
@@ -37,9 +37,11 @@ class ClothesRequest:
 
 
 def mask_for_brush(
-    obj: bpy.types.Object, settings: SkinTanMask, name: str, domain: str
+    obj: bpy.types.Object, settings: SkinTanMask | SkinTanRegionMask, name: str, domain: str
 ) -> tuple[str, str]:
-    """Have a brush paint on a mask: on the one there is, or on a new one that is all bare.
+    """Have a brush paint on a mask: on the one there is, or on a new one.
+
+    A new one is all bare, or of a region all black: it is nowhere yet.
 
     Numbers for which Blender has no brush are copied into a new mask.
 
@@ -58,19 +60,19 @@ def mask_for_brush(
         raise InputError(f"{obj.name!r} is in Edit Mode; leave Edit Mode (Tab).")
     if not mesh.polygons:
         raise InputError(f"{obj.name!r} has no faces, so there is nothing to paint on.")
-    mask = _mask(obj, settings)
+    mask, words = _mask(obj, settings), _words(settings)
     source = masks.source_of(obj, mask, masks.current_depsgraph())
     if source is None or not mask_colours.is_paintable(source):
         kind = source.kind if source else ""
         if source is not None and kind == "GROUP":
             obj.vertex_groups.active_index = obj.vertex_groups[source.name].index
-            return kind, f"{_legend(mask, 'Weight 0', '1')}: painting {source.name!r}."
+            return kind, f"{_legend(mask, words, 'Weight 0', '1')}: painting {source.name!r}."
         if source is not None and kind == "IMAGE":
             _activate_image(mesh, mask)
-            return kind, f"{_legend(mask)}: painting {source.name!r}."
+            return kind, f"{_legend(mask, words)}: painting {source.name!r}."
         return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
     mask_colours.activate(mesh, source.name)
-    return "COLOUR", f"{_legend(mask)}: painting {source.name!r}."
+    return "COLOUR", f"{_legend(mask, words)}: painting {source.name!r}."
 
 
 def from_clothes(
@@ -121,24 +123,31 @@ def from_clothes(
     return f"The mask {name!r} covers {100 * covered:.0f} % of the points."
 
 
-def _mask(obj: bpy.types.Object, settings: SkinTanMask) -> masks.Mask:
+def _words(settings: SkinTanMask | SkinTanRegionMask) -> tuple[str, str]:
+    """What 0 and 1 mean in a mask."""
+    if isinstance(settings, SkinTanRegionMask):
+        return "outside the region", "in it"
+    return "covered", "bare"
+
+
+def _mask(obj: bpy.types.Object, settings: SkinTanMask | SkinTanRegionMask) -> masks.Mask:
     owner = settings_of(obj)
     return owner.object_mask() if settings == owner.mask else masks.Mask.of(settings)
 
 
 def _new_for_brush(
     obj: bpy.types.Object,
-    settings: SkinTanMask,
+    settings: SkinTanMask | SkinTanRegionMask,
     mask: masks.Mask,
     source: masks.Source | None,
     form: tuple[str, str],
 ) -> str:
-    """A new mask of a name and domain: all bare, or with the numbers of a mask without a brush."""
+    """A new mask of a name and domain, maybe with the numbers of a mask without a brush."""
     name, domain = form
     mesh = cast(bpy.types.Mesh, obj.data)
-    said = _legend(mask if source else masks.Mask())
+    said = _legend(mask if source else masks.Mask(), _words(settings))
     count = len(mesh.vertices) if domain == "POINT" else len(mesh.loops)
-    shares = np.ones(count, np.float32)
+    shares = np.full(count, not isinstance(settings, SkinTanRegionMask), np.float32)
     if source is not None:
         plain = masks.Mask(mask.source, channel=mask.channel)
         values = mask_values.mask_values(obj, plain)
@@ -154,10 +163,12 @@ def _new_for_brush(
     return f"{said}: painting {made!r}."
 
 
-def _legend(mask: masks.Mask, low: str = "Black", high: str = "white") -> str:
+def _legend(
+    mask: masks.Mask, words: tuple[str, str], low: str = "Black", high: str = "white"
+) -> str:
     """What to paint with."""
-    covered, bare = ("bare", "covered") if mask.invert else ("covered", "bare")
-    return f"{low} is {covered}, {high} is {bare}"
+    nothing, all_of_it = reversed(words) if mask.invert else words
+    return f"{low} is {nothing}, {high} is {all_of_it}"
 
 
 def _set(settings: Any, name: str) -> None:

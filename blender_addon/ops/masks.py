@@ -11,7 +11,7 @@ from hylios.errors import InputError
 
 from ..apply import tannable
 from ..masking import ClothesRequest, from_clothes, mask_for_brush
-from ..props import SkinTanMask, settings_of
+from ..props import SkinTanMask, SkinTanRegion, settings_of
 from .active import active_mesh, active_object, current_scene, selected_meshes
 
 STEP_SECONDS = 0.05
@@ -27,12 +27,15 @@ TARGETS = (
 )
 """Which mask a button makes or paints."""
 
+REGION = "REGION"
+PAINTED = (*TARGETS, (REGION, "Region", "The mask of the selected region of the skin"))
 
-def target_property() -> Any:
+
+def target_property(items: tuple[tuple[str, str, str], ...] = TARGETS) -> Any:
     return EnumProperty(
         name="Mask of",
         description="Which mask is made or painted",
-        items=TARGETS,
+        items=items,
         default="AUTO",
         options={"SKIP_SAVE"},
     )
@@ -58,6 +61,20 @@ def edited_mask(obj: bpy.types.Object, target: str) -> SkinTanMask:
     return exposure.mask if exposure.own_mask else settings.mask
 
 
+def edited_region(obj: bpy.types.Object) -> SkinTanRegion:
+    """The region that is selected in the list.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    settings = settings_of(obj)
+    if not settings.regions:
+        raise InputError(f"{obj.name!r} has no region that could have a mask; add one first.")
+    return settings.regions[min(settings.region_index, len(settings.regions) - 1)]
+
+
 def has_window(context: bpy.types.Context) -> bool:
     return context.window is not None and not bpy.app.background
 
@@ -71,8 +88,13 @@ class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    target: target_property()
-    name: StringProperty(name="Name", description="Name of a new mask", default="Sun Mask")
+    target: target_property(PAINTED)
+    name: StringProperty(
+        name="Name",
+        description="Name of a new mask; that of a region is called after its kind if not given",
+        default="Sun Mask",
+        options={"SKIP_SAVE"},
+    )
     domain: EnumProperty(
         name="Domain",
         description="What holds the colours of a new mask",
@@ -95,7 +117,7 @@ class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
     def execute(self, context):
         try:
             obj = tannable(active_object(context))
-            kind, said = mask_for_brush(obj, edited_mask(obj, self.target), self.name, self.domain)
+            kind, said = self._prepared(obj)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -107,19 +129,27 @@ class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
             if obj.mode != MODES[kind]:
                 cast(Any, bpy.ops).object.mode_set(mode=MODES[kind])
             if kind == "COLOUR":
-                _take_black(context)
+                _take_brush(context, white=self.target == REGION)
         self.report({"INFO"}, said)
         return {"FINISHED"}
 
+    def _prepared(self, obj: bpy.types.Object) -> tuple[str, str]:
+        if self.target != REGION:
+            return mask_for_brush(obj, edited_mask(obj, self.target), self.name, self.domain)
+        region = edited_region(obj)
+        is_named = self.properties.is_property_set("name")
+        name = self.name if is_named else f"{region.label()} Mask"
+        return mask_for_brush(obj, region.mask, name, self.domain)
 
-def _take_black(context: bpy.types.Context) -> None:
-    """Have the brush paint black, and white with its second colour (X swaps them)."""
+
+def _take_brush(context: bpy.types.Context, *, white: bool) -> None:
+    """Have the brush paint black or white, and the other with its second colour (X swaps them)."""
     tools: Any = context.tool_settings
     paint = tools.vertex_paint
     unified = getattr(paint, "unified_paint_settings", None) or tools.unified_paint_settings
     brush = unified if unified.use_unified_color else paint.brush
     if brush is not None:
-        brush.color, brush.secondary_color = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+        brush.color, brush.secondary_color = (float(white),) * 3, (float(not white),) * 3
 
 
 class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801

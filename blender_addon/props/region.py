@@ -27,6 +27,9 @@ def _told(name: str, text: str) -> str:
 KIND_ITEMS = tuple((name, label, _told(name, text)) for name, label, text in KINDS)
 
 
+LABELS = {name: label for name, label, _ in KINDS}
+
+
 class SkinTanRegionMask(bpy.types.PropertyGroup):
     """Like `SkinTanMask`, of where a region lies."""
 
@@ -86,6 +89,10 @@ class SkinTanRegion(bpy.types.PropertyGroup):
         "where the mask is or everywhere",
     )
     mask: PointerProperty(name="Mask", type=SkinTanRegionMask)
+
+    def label(self) -> str:
+        """What its kind is called."""
+        return LABELS[self.kind]
 
     def has_spots(self) -> bool:
         """Whether spots come by themselves."""

@@ -37,6 +37,9 @@ def draw_mask(
     layout.prop(settings, "source", text="", icon="MOD_MASK")
     if isinstance(settings, SkinTanMask):
         _draw_makers(layout, "EXPOSURE")
+    if isinstance(settings, SkinTanRegionMask):
+        paint: Any = layout.operator("skin_tan.paint_mask", icon="BRUSH_DATA")
+        paint.target = "REGION"
     _draw_reading(layout, obj, settings, masks.Mask.of(settings), context, without)
 
 

@@ -13,7 +13,7 @@ class SKIN_TAN_UL_regions(bpy.types.UIList):  # noqa: N801
         row.prop(item, "enabled", text="")
         split = row.split(factor=0.66)
         split.active = item.enabled
-        split.label(text=item.bl_rna.properties["kind"].enum_items[item.kind].name)
+        split.label(text=item.label())
         split.prop(item, "strength", text="", emboss=False)
 
 

@@ -262,3 +262,18 @@ def test_regions_come_and_go_by_buttons(table_path):
     assert [item.kind for item in regions] == ["LIPS"]
     bpy.ops.skin_tan.remove_region()
     assert not bpy.ops.skin_tan.remove_region.poll()
+
+
+def test_paint_mask_makes_a_black_one_for_a_region(table_path, capfd):
+    obj = tan_object(table_path)
+    with pytest.raises(RuntimeError, match="has no region"):
+        bpy.ops.skin_tan.paint_mask(target="REGION")
+    bpy.ops.skin_tan.add_region(kind="LIPS")
+    assert bpy.ops.skin_tan.paint_mask(target="REGION") == {"FINISHED"}
+    assert "Black is outside the region, white is in it" in capfd.readouterr().out
+    assert obj.skin_tan.regions[0].mask.source == "Lips Mask"
+    assert obj.skin_tan.mask.source == ""
+    painted = obj.data.attributes["Lips Mask"].data
+    assert {tuple(point.color) for point in painted} == {(0.0, 0.0, 0.0, 1.0)}
+    assert apply(obj) == {"FINISHED"}
+    assert of_role(obj, "regions")

@@ -54,6 +54,8 @@ def tan(
         settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
         apply_tan(tanned, bpy.context.scene)
         take_oil(tanned)
+        if len(schedules) > 1:  # blotches would pass for tans in small patches
+            scene.make_even(tanned)
         if number:
             material = tanned.skin_tan.material
             bpy.data.objects.remove(tanned)

@@ -327,4 +327,5 @@ def test_all_figures_from_small_renders_of_the_stand_in(tmp_path, monkeypatch):
     assert {row.where for row in rows} == set(renders.FIGURES)
     # Few pixels and samples, and no smooth body: colours are nearer to the table in a real one.
     claims = [row for row in rows if row.aim == "as printed"]
-    assert {row.where for row in claims if not row.met} <= {"6.25", "6.26"}
+    # Relief is too fine for them to tell how much glossier a film is.
+    assert {row.where for row in claims if not row.met} <= {"6.25", "6.26", "6.28"}

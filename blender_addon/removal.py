@@ -42,7 +42,8 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
     with Changes() as changes:
         said = take_off(obj, changes)
         remove_own(obj, changes)
-        if not keep_timing:
+        # Keys of the artist's own stay; a file from before Apply noted its keys has only ours.
+        if not keep_timing and (any(settings.keyed) or not settings.applied):
             said += remove_day(obj, changes)
             changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))
         changes.set(settings, "applied", "")

@@ -6,12 +6,16 @@ import bpy
 
 from hylios.errors import InputError
 
+from .model.curve import curve_of, is_seen
 from .model.settings import check_days
 from .model.tan import darkest_day, history_of
 from .model.timing import OWN, SCENE, frames_of
 from .props import SkinTanSettings, settings_of
 from .scene import timeline
 from .scene.changes import Changes
+
+NEAR = 1.0
+"""Days by which the frame with the darkest day may miss it."""
 
 Pair = tuple[float, float]
 """First and last."""
@@ -46,13 +50,24 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     InputError
         If the object's day has no keys, or a setting cannot be used.
     """
-    day = darkest_day(history_of(settings_of(obj).values()))
+    values = settings_of(obj).values()
+    if not is_seen(curve_of(values)):
+        return "No tan can be seen: this skin hardly tans, or gets too little sun."
+    if timeline.is_moved_elsewhere(obj):
+        return "A driver or a strip of the NLA governs the day of the tan; the frame stays."
+    day = darkest_day(history_of(values))
     frame = timeline.frame_of_day(obj, scene, day)
     if frame is None:
         raise InputError(
             f"The day of {obj.name!r} has no keys; Apply Tan or Reset Timing sets them."
         )
     scene.frame_set(frame)
+    shown = timeline.shown_day(obj)
+    if shown is not None and abs(shown - day) > NEAR:
+        return (
+            f"Frame {frame} shows day {shown:.0f}, the nearest to the darkest day, {day:.0f}, in "
+            "this scene's frames."
+        )
     return f"Frame {frame} shows the darkest day, day {day:.0f}."
 
 

@@ -44,20 +44,32 @@ def tan_folder(arguments: argparse.Namespace) -> None:
     exposures = read_exposures(arguments.schedule).exposures if arguments.schedule else ()
     arguments.out.mkdir(parents=True, exist_ok=True)
     blender_addon.register()
+    unread: list[str] = []
     for file in tqdm(files, "tan", unit="file"):
         target = arguments.out / file.name
         if target.exists() and not arguments.force:
             continue
-        bpy.ops.wm.open_mainfile(filepath=str(file), load_ui=False)
-        for line in tanned(arguments, exposures):
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(file), load_ui=False)
+        except RuntimeError as error:
+            unread.append(file.name)
+            tqdm.write(f"{file.name} cannot be read: {' '.join(str(error).split())}")
+            continue
+        lines = list(tanned(arguments, exposures))
+        if not lines:
+            tqdm.write(f"{file.name}: no mesh is called {arguments.objects}; no copy is made.")
+            continue
+        for line in lines:
             tqdm.write(f"{file.name}: {line}")
         unfinished = target.with_suffix(".unfinished.blend")
         bpy.ops.wm.save_as_mainfile(filepath=str(unfinished.resolve()), copy=True)
         os.replace(unfinished, target)
+    if unread:
+        raise InputError(f"Files that cannot be read: {', '.join(unread)}; all others are done.")
 
 
 def tanned(arguments: argparse.Namespace, exposures: tuple[dict, ...]) -> Iterator[str]:
-    """Tan the meshes of the open file; a line on each, or on why there is none."""
+    """Tan the meshes of the open file; a line on each."""
     import bpy
 
     from blender_addon.apply import apply_tan
@@ -65,8 +77,6 @@ def tanned(arguments: argparse.Namespace, exposures: tuple[dict, ...]) -> Iterat
     scene = bpy.context.scene
     meshes = [obj for obj in scene.objects if obj.type == "MESH"]
     bodies = [obj for obj in meshes if fnmatchcase(obj.name, arguments.objects)]
-    if not bodies:
-        yield f"no mesh is called {arguments.objects}."
     for body in bodies:
         settings = body.skin_tan
         settings.skin, settings.last_day = arguments.skin, arguments.days

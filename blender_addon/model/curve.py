@@ -106,10 +106,15 @@ def _of_bare_skin(history: History, days: NDArray) -> NDArray[np.float64]:
     return np.stack([np.interp(rows, np.arange(len(bare)), bare[:, k]) for k in range(3)], axis=1)
 
 
+def is_seen(curve: Curve) -> bool:
+    """Whether a tan can be seen on the darkest day."""
+    return bool(curve.untanned - curve.lightness[curve.darkest] >= PLAIN)
+
+
 def words(curve: Curve) -> tuple[str, ...]:
     """Short lines for an artist."""
     darkest = curve.darkest
-    if curve.untanned - curve.lightness[darkest] < PLAIN:
+    if not is_seen(curve):
         return ("No tan that can be seen",)
     first = Line("Darkest on day {darkest:.0f},", darkest=curve.days[darkest])
     half = curve.half_gone

@@ -43,6 +43,18 @@ def active_mesh(context: bpy.types.Context) -> bpy.types.Object | None:
     return obj if obj is not None and obj.type == "MESH" else None
 
 
+def can_edit(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether the settings of the active mesh can be changed; a poll of `cls` says why not."""
+    obj = active_mesh(context)
+    if obj is None:
+        cls.poll_message_set("Select a mesh object")
+    elif obj.library is not None:
+        cls.poll_message_set("The object is linked from another file: make it local or override it")
+    else:
+        return True
+    return False
+
+
 def active_settings(context: bpy.types.Context) -> SkinTanSettings:
     """What is set on the active mesh, where `poll` found one."""
     obj = active_mesh(context)

@@ -10,7 +10,7 @@ from hylios.errors import InputError
 from hylios.files import require_target, written_beside
 
 from ..model.exposures_csv import exposures_text, read_exposures
-from .active import active_mesh, active_settings
+from .active import active_mesh, active_settings, can_edit
 
 
 class SKIN_TAN_OT_export_exposures(bpy.types.Operator, ExportHelper):  # noqa: N801
@@ -55,7 +55,7 @@ class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         path = Path(bpy.path.abspath(cast(Any, self).filepath))

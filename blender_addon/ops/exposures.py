@@ -1,19 +1,21 @@
 """The buttons beside the list of exposures."""
 
+from typing import Any
+
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
 from ..props import SkinTanSettings
 from ..props.copying import copy_values
-from .active import active_mesh, active_settings
+from .active import active_settings, can_edit
 
 SELECTED = -1
 """Stands for the exposure that is selected in the list."""
 
 
-def _has_exposures(context: bpy.types.Context) -> bool:
-    return active_mesh(context) is not None and len(active_settings(context).exposures) > 0
+def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
+    return can_edit(cls, context) and len(active_settings(context).exposures) > 0
 
 
 def _index(settings: SkinTanSettings, number: int) -> int:
@@ -46,7 +48,7 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)
@@ -74,7 +76,7 @@ class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return _has_exposures(context)
+        return _has_exposures(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)
@@ -99,7 +101,7 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return _has_exposures(context)
+        return _has_exposures(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)
@@ -122,7 +124,7 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return _has_exposures(context)
+        return _has_exposures(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)

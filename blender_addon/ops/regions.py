@@ -5,7 +5,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..model.regions import MOST_STRENGTH
 from ..props.region import KIND_ITEMS
-from .active import active_mesh, active_settings
+from .active import active_settings, can_edit
 
 SELECTED = -1
 """Stands for the region that is selected in the list."""
@@ -36,7 +36,7 @@ class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)
@@ -57,7 +57,7 @@ class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None and len(active_settings(context).regions) > 0
+        return can_edit(cls, context) and len(active_settings(context).regions) > 0
 
     def execute(self, context):
         settings = active_settings(context)

@@ -12,7 +12,7 @@ from hylios.errors import InputError
 from ..matching import match_colour, own_colour
 from ..model.biology import build_command
 from ..model.catalogue import TYPES
-from .active import active_mesh, active_object, active_settings, current_scene
+from .active import active_object, active_settings, can_edit, current_scene
 
 ADJUST = BoolProperty(
     name="Melanin and Blood",
@@ -33,7 +33,7 @@ class SKIN_TAN_OT_choose_type(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)
@@ -66,7 +66,7 @@ class SKIN_TAN_OT_match_colour(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         scene: Any = current_scene(context)
@@ -86,7 +86,7 @@ class SKIN_TAN_OT_match_texture(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         try:
@@ -120,7 +120,7 @@ class SKIN_TAN_OT_reset_biology(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         active_settings(context).biology.reset()
@@ -138,7 +138,7 @@ class SKIN_TAN_OT_copy_build_command(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return can_edit(cls, context)
 
     def execute(self, context):
         try:

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .recolour import FACTOR, INSERTED
 from .trees import shaders
 
 SIDE = 256
@@ -62,6 +63,12 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
         if (node, output) in seen:
             continue
         seen.add((node, output))
+        if node.get(INSERTED) == FACTOR:
+            # What the tan multiplies is the painted colour, not what it multiplies it by.
+            if not node.inputs[0].is_linked:
+                return np.array(node.inputs[0].default_value[:3], dtype=float)
+            waiting.insert(0, (node.inputs[0], around))
+            continue
         image, inner = (getattr(node, name, None) for name in ("image", "node_tree"))
         if node.bl_idname == "ShaderNodeTexImage" and image and _is_colour(image):
             return image
@@ -96,8 +103,8 @@ def _is_colour(image: bpy.types.Image) -> bool:
 def _places(obj: bpy.types.Object, material: bpy.types.Material) -> NDArray[np.float32] | None:
     """Texture coordinates (N, 2) of corners of the faces that show a material."""
     mesh: Any = obj.data
-    if not mesh.uv_layers.active or not mesh.polygons:
-        return None
+    if not mesh.uv_layers.active or not mesh.polygons or obj.mode == "EDIT":
+        return None  # in Edit Mode a mesh does not tell its texture coordinates
     index = np.zeros(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("material_index", index)
     counts = np.zeros(len(mesh.polygons), np.int32)

@@ -124,6 +124,13 @@ def set_first_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
         obj.update_tag()
 
 
+def is_moved_elsewhere(obj: bpy.types.Object) -> bool:
+    """Whether a driver or a strip of the NLA, not keys of an action, governs the day."""
+    animation = obj.animation_data
+    of_action = animation is not None and animation.action is not None
+    return is_driven(obj) or (not of_action and next(day_curves(obj), None) is not None)
+
+
 def frame_of_day(obj: bpy.types.Object, scene: bpy.types.Scene, day: float) -> int | None:
     """The frame of the scene that shows a day best, by the object's keys; None without keys."""
     curve = next(day_curves(obj), None)

@@ -131,3 +131,40 @@ def test_the_darkest_day_is_shown(body):
 def test_the_darkest_day_needs_keys(body):
     with pytest.raises(RuntimeError, match="has no keys"):
         bpy.ops.skin_tan.go_to_darkest_day()
+
+
+def test_a_frame_that_only_comes_near_is_said_so(body, capfd):
+    scene = bpy.context.scene
+    scene.frame_start = scene.frame_end = 1
+    apply(body)
+    capfd.readouterr()
+    bpy.ops.skin_tan.go_to_darkest_day()
+    assert "Frame 1 shows day 0, the nearest to the darkest day" in capfd.readouterr().out
+
+
+def test_a_tan_that_nobody_sees_is_said(body, capfd):
+    body.skin_tan.exposures[0].dose = 0.0
+    apply(body)
+    bpy.context.scene.frame_set(33)
+    bpy.ops.skin_tan.go_to_darkest_day()
+    assert "No tan can be seen" in capfd.readouterr().out
+    assert bpy.context.scene.frame_current == 33
+
+
+def test_a_strip_that_governs_the_day_is_said(body, capfd):
+    apply(body)
+    animation = body.animation_data
+    animation.nla_tracks.new().strips.new("days", 50, animation.action)
+    animation.action = None
+    bpy.ops.skin_tan.go_to_darkest_day()
+    assert "A driver or a strip of the NLA governs" in capfd.readouterr().out
+
+
+def test_remove_leaves_keys_of_one_s_own(body):
+    body.skin_tan.timing = "OWN"
+    body["tan_day"] = 4.0
+    body.keyframe_insert('["tan_day"]', frame=7)
+    before = keys(body)
+    apply(body)
+    bpy.ops.skin_tan.remove()
+    assert keys(body) == before and body["tan_day"] == 4.0

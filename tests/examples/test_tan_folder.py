@@ -38,6 +38,20 @@ def test_a_folder_is_tanned(folder):
     assert (out / "nora.blend").stat().st_mtime_ns == stamp
 
 
+def test_one_that_cannot_be_read_stops_no_other(folder):
+    (folder / "in" / "bad.blend").write_bytes(b"no blend")
+    out = folder / "out"
+    done = run(folder / "in", "--out", out)
+    assert done.returncode == 2 and "bad.blend; all others are done" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert [path.name for path in out.iterdir()] == ["nora.blend"]
+
+
+def test_no_copy_is_made_where_nothing_tans(folder):
+    done = run(folder / "in", "--out", folder / "out", "--objects", "Nobody*")
+    assert done.returncode == 0 and not list((folder / "out").iterdir())
+
+
 def test_an_empty_folder_is_said(tmp_path):
     done = run(tmp_path)
     assert done.returncode == 2 and "holds no .blend file" in done.stderr

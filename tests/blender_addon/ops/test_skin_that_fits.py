@@ -101,3 +101,47 @@ def test_sensitivity_without_a_table_stays_at_its_default(body):
     settings.skin, settings.table_path = "FILE", "/nowhere.exr"
     settings.own_minimal_doses = True
     assert settings.mmd == 7.0
+
+
+def test_a_plain_colour_is_the_painted_one_after_apply_too(body, capfd):
+    material = artist_skins.empty_material("Skin")
+    shader = artist_skins.principled(material.node_tree)
+    shader.inputs["Base Color"].default_value = (*type_colours()["V"], 1.0)
+    artist_skins.output_of(material.node_tree, shader.outputs[0])
+    body.data.materials.append(material)
+    said = []
+    for _ in range(2):
+        capfd.readouterr()
+        bpy.ops.skin_tan.match_texture()
+        said.append(capfd.readouterr().out)
+        apply(body)
+    assert body.skin_tan.skin == "V" and said[0] == said[1]
+
+
+def test_in_edit_mode_nothing_is_thrown(body):
+    colours = np.tile(type_colours()["IV"], (4, 4, 1))
+    material = artist_skins.empty_material("Skin")
+    shader = artist_skins.principled(material.node_tree)
+    texture = artist_skins.texture(material.node_tree, colours)
+    material.node_tree.links.new(texture.outputs[0], shader.inputs["Base Color"])
+    artist_skins.output_of(material.node_tree, shader.outputs[0])
+    body.data.materials.append(material)
+    body.data.uv_layers.new(name="UVMap")
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.skin_tan.match_texture() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert body.skin_tan.skin == "IV"
+
+
+def test_settings_of_a_linked_object_are_not_changed(body, tmp_path):
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, linked):
+        linked.objects = ["Body"]
+    obj = bpy.data.objects["Body"]
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    for name in ("add_exposure", "match_colour", "match_texture", "choose_type", "add_region"):
+        assert not getattr(bpy.ops.skin_tan, name).poll()
+    assert bpy.ops.skin_tan.export_exposures.poll()

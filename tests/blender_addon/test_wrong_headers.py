@@ -4,7 +4,7 @@ import bpy
 import pytest
 from scenes import apply, look, tan_object
 
-from blender_addon.ui.panel import skin_lines
+from blender_addon.ui.skin import skin_lines
 from hylios.table import CHECKSUM_ATTRIBUTE, HEADER_ATTRIBUTE
 from hylios.table.exr_reader import parse
 from hylios.table.stored import checksum

@@ -202,7 +202,7 @@ def test_an_exception_anywhere(table_path, monkeypatch, scene):
     assert look(obj) != seen
 
 
-STEP = 131
+STEP = 257
 """Every so many lines; with 1 the tests take minutes."""
 
 

@@ -292,7 +292,9 @@ def _fitted(
     precision: BasisPrecision,
 ) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
     """Shapes of those curves; coefficients and errors of all."""
-    shapes = principal_shapes(curves[those], rank, counts[those] ** 0.25, precision.rounds)
+    shapes = principal_shapes(
+        curves[those], rank, np.asarray(counts[those] ** 0.25, float), precision.rounds
+    )
     coefficients = shapes.coefficients(curves)
     return shapes, coefficients, np.abs(shapes.curves(coefficients) - curves)
 

@@ -63,7 +63,7 @@ def hours_to_simulate(
     lines = coordinates_of(states)[..., :2].reshape(len(hours), -1)
     start = int(np.searchsorted(hours, first))
     before = by_bend(hours[: start + 1], lines[: start + 1], rows)
-    most = rows - np.count_nonzero(kinks >= first)
+    most = rows - int(np.count_nonzero(kinks >= first))
     told = start + by_bend(hours[start:], lines[start:], most)
     return np.unique(np.concatenate([hours[before], hours[told], kinks]))
 

@@ -222,7 +222,7 @@ def _of_image(image: Any, places: NDArray[np.float32], channel: str) -> NDArray[
     right, up = part[:, :1], part[:, 1:]
     lower = pixels[low[:, 1], low[:, 0]] * (1 - right) + pixels[low[:, 1], high[:, 0]] * right
     upper = pixels[high[:, 1], low[:, 0]] * (1 - right) + pixels[high[:, 1], high[:, 0]] * right
-    sampled = lower * (1 - up) + upper * up
+    sampled = np.asarray(lower * (1 - up) + upper * up, np.float32)
     if image.channels < 4:
         opaque = np.ones((len(sampled), 1), np.float32)
         colours = sampled[:, :3] if image.channels == 3 else np.repeat(sampled[:, :1], 3, axis=1)

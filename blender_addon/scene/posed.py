@@ -126,7 +126,7 @@ def _surface(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Surface:
     turned = normals @ np.linalg.pinv(matrix[:3, :3])
     lengths = np.linalg.norm(turned, axis=1, keepdims=True)
     return Surface(
-        np.nan_to_num(points @ matrix[:3, :3].T + matrix[:3, 3]),
+        np.nan_to_num(np.asarray(points @ matrix[:3, :3].T + matrix[:3, 3], float)),
         np.nan_to_num(turned / np.maximum(lengths, 1e-30)),
         triangles,
     )

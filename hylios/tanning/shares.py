@@ -184,7 +184,7 @@ def _left(
     dynamics: MelaninDynamics | ThicknessDynamics, hours: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Signal rate and signal (hours,) left of a unit of energy of hour 0."""
-    rate = dynamics.signal_rate_decay ** np.arange(hours)
+    rate = np.asarray(dynamics.signal_rate_decay ** np.arange(hours), float)
     signal = accumulated(dynamics.signal_decay, in_blocks(rate[:, None]))
     return rate, in_a_row(signal, hours)[:, 0]
 

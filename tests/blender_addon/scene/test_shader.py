@@ -165,13 +165,13 @@ def gloss(angle: float, roughness: float, folder) -> float:
     return seen
 
 
-def lit(angle: float, folder) -> np.ndarray:
+def lit(angle: float, folder, samples: int = 256) -> np.ndarray:
     """Mean colour of a large flat square under white light, seen at an angle."""
     turn = np.radians(angle)
     camera = bpy.context.scene.camera
     camera.location = (0.5, 0.5 - 5.0 * np.sin(turn), 5.0 * np.cos(turn))
     camera.rotation_euler = (turn, 0.0, 0.0)
-    return render(folder / "lit.exr", width=16, height=16, samples=256).mean(axis=(0, 1))
+    return render(folder / "lit.exr", width=16, height=16, samples=samples).mean(axis=(0, 1))
 
 
 @pytest.mark.parametrize("day", [0.0, 9.0])
@@ -243,5 +243,6 @@ def test_one_gloss_and_two_show_the_same_light(tmp_path, table_path):
         seen = []
         for oil in (0.0, 1e-6):
             skin_node().inputs["Oil"].default_value = oil
-            seen.append(lit(angle, tmp_path))
+            # With 256 samples noise alone is up to .1 in Blender 5.2.
+            seen.append(lit(angle, tmp_path, samples=1024))
         assert difference(*seen) < 0.06

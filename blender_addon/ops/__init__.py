@@ -1,7 +1,11 @@
 """What the buttons do."""
 
 from .apply import SKIN_TAN_OT_apply, SKIN_TAN_OT_copy_to_selected
-from .csv_files import SKIN_TAN_OT_export_exposures, SKIN_TAN_OT_import_exposures
+from .csv_files import (
+    SKIN_TAN_OT_export_exposures,
+    SKIN_TAN_OT_export_schedule,
+    SKIN_TAN_OT_import_exposures,
+)
 from .exposures import (
     SKIN_TAN_OT_add_exposure,
     SKIN_TAN_OT_duplicate_exposure,
@@ -13,7 +17,6 @@ from .materials import SKIN_TAN_OT_list_materials
 from .presets import SKIN_TAN_OT_schedule_preset_add, SKIN_TAN_OT_skin_preset_add
 from .regions import SKIN_TAN_OT_add_region, SKIN_TAN_OT_remove_region
 from .remove import SKIN_TAN_OT_remove
-from .schedule import SKIN_TAN_OT_export_schedule
 from .size import SKIN_TAN_OT_fit_size
 from .skin import (
     SKIN_TAN_OT_choose_type,

@@ -9,14 +9,17 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from hylios.errors import InputError
 from hylios.files import require_target, written_beside
 
+from ..apply import tannable
 from ..model.exposures_csv import exposures_text, read_exposures
-from .active import active_mesh, active_settings, can_edit
+from ..model.schedule import csv_text
+from ..props import settings_of
+from .active import active_mesh, active_object, active_settings, can_edit
+from .reports import finished
 
 
-class SKIN_TAN_OT_export_exposures(bpy.types.Operator, ExportHelper):  # noqa: N801
-    bl_idname = "skin_tan.export_exposures"
-    bl_label = "Export CSV"
-    bl_description = "Save the times in the sun as CSV, with all their settings but the masks"
+class _SavesCsv(ExportHelper):
+    """An operator that writes the active object's exposures into a CSV file."""
+
     filename_ext = ".csv"
     filter_glob: bpy.props.StringProperty(default="*.csv", options={"HIDDEN"})
 
@@ -26,16 +29,44 @@ class SKIN_TAN_OT_export_exposures(bpy.types.Operator, ExportHelper):  # noqa: N
 
     def execute(self, context):
         path = Path(bpy.path.abspath(cast(Any, self).filepath))
-        try:
-            require_target(path, (".csv",), replacing=True)
-            text = exposures_text(active_settings(context).exposures)
-            with written_beside(path) as beside:
-                beside.write_text(text, encoding="utf-8")
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"Saved {path}.")
-        return {"FINISHED"}
+        return finished(self, lambda: self._save(context, path))
+
+    def _save(self, context: bpy.types.Context, path: Path) -> str:
+        obj = self.subject(context)
+        require_target(path, (".csv",), replacing=True)
+        text = self.text(obj)
+        with written_beside(path) as beside:
+            beside.write_text(text, encoding="utf-8")
+        return f"Saved {path}."
+
+    def subject(self, context: bpy.types.Context) -> bpy.types.Object:
+        """The object whose exposures are written; InputError if they cannot be."""
+        return cast(bpy.types.Object, active_mesh(context))
+
+    def text(self, obj: bpy.types.Object) -> str:
+        """The text of the file; InputError if a setting cannot be used."""
+        raise NotImplementedError
+
+
+class SKIN_TAN_OT_export_exposures(_SavesCsv, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.export_exposures"
+    bl_label = "Export CSV"
+    bl_description = "Save the times in the sun as CSV, with all their settings but the masks"
+
+    def text(self, obj: bpy.types.Object) -> str:
+        return exposures_text(settings_of(obj).exposures)
+
+
+class SKIN_TAN_OT_export_schedule(_SavesCsv, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.export_schedule"
+    bl_label = "Export Schedule"
+    bl_description = "Save these exposures as CSV, to build a smaller table for this scene only"
+
+    def subject(self, context: bpy.types.Context) -> bpy.types.Object:
+        return tannable(active_object(context))
+
+    def text(self, obj: bpy.types.Object) -> str:
+        return csv_text(obj.name, settings_of(obj).values())
 
 
 class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N801

@@ -6,22 +6,13 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
-from ..props import SkinTanSettings
 from ..props.copying import copy_values
 from .active import active_settings, can_edit
-
-SELECTED = -1
-"""Stands for the exposure that is selected in the list."""
+from .lists import SELECTED, after_removing, index_of
 
 
 def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
     return can_edit(cls, context) and len(active_settings(context).exposures) > 0
-
-
-def _index(settings: SkinTanSettings, number: int) -> int:
-    """Index of an exposure by its number; beyond the last is the last."""
-    wanted = settings.exposure_index if number == SELECTED else number
-    return max(0, min(wanted, len(settings.exposures) - 1))
 
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
@@ -80,7 +71,7 @@ class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        source = _index(settings, self.index)
+        source = index_of(settings.exposures, settings.exposure_index, self.index)
         added = settings.exposures.add()
         copy_values(settings.exposures[source], added)
         settings.exposures.move(len(settings.exposures) - 1, source + 1)
@@ -105,7 +96,7 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        source = _index(settings, self.index)
+        source = index_of(settings.exposures, settings.exposure_index, self.index)
         target = source + (-1 if self.direction == "UP" else 1)
         if not 0 <= target < len(settings.exposures):
             return {"CANCELLED"}
@@ -128,7 +119,7 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        last = len(settings.exposures) - 1
-        settings.exposures.remove(_index(settings, self.index))
-        settings.exposure_index = max(0, min(settings.exposure_index, last - 1))
+        settings.exposure_index = after_removing(
+            settings.exposures, settings.exposure_index, self.index
+        )
         return {"FINISHED"}

@@ -6,9 +6,7 @@ from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from ..model.regions import MOST_STRENGTH
 from ..props.region import KIND_ITEMS
 from .active import active_settings, can_edit
-
-SELECTED = -1
-"""Stands for the region that is selected in the list."""
+from .lists import SELECTED, after_removing
 
 
 class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
@@ -61,8 +59,5 @@ class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        last = len(settings.regions) - 1
-        wanted = settings.region_index if self.index == SELECTED else self.index
-        settings.regions.remove(max(0, min(wanted, last)))
-        settings.region_index = max(0, min(settings.region_index, last - 1))
+        settings.region_index = after_removing(settings.regions, settings.region_index, self.index)
         return {"FINISHED"}

@@ -3,10 +3,9 @@
 import bpy
 from bpy.props import BoolProperty
 
-from hylios.errors import InputError
-
 from ..removal import has_tan, remove_tan
 from .active import active_mesh, active_object
+from .reports import finished
 
 
 class SKIN_TAN_OT_remove(bpy.types.Operator):  # noqa: N801
@@ -32,10 +31,6 @@ class SKIN_TAN_OT_remove(bpy.types.Operator):  # noqa: N801
         return True
 
     def execute(self, context):
-        try:
-            message = remove_tan(active_object(context), keep_timing=self.keep_timing)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
-        return {"FINISHED"}
+        return finished(
+            self, lambda: remove_tan(active_object(context), keep_timing=self.keep_timing)
+        )

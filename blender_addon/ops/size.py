@@ -5,11 +5,10 @@ from typing import Any, cast
 import bpy
 from bpy.props import FloatProperty
 
-from hylios.errors import InputError
-
 from ..model.settings import LARGEST_SCALE
 from ..size import fit_size
 from .active import active_mesh, active_object, current_scene
+from .reports import finished
 
 
 class SKIN_TAN_OT_fit_size(bpy.types.Operator):  # noqa: N801
@@ -35,10 +34,6 @@ class SKIN_TAN_OT_fit_size(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         scale = cast(Any, self).model_scale
-        try:
-            message = fit_size(active_object(context), current_scene(context), scale)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
-        return {"FINISHED"}
+        return finished(
+            self, lambda: fit_size(active_object(context), current_scene(context), scale)
+        )

@@ -13,6 +13,7 @@ from ..matching import match_colour, own_colour
 from ..model.biology import build_command
 from ..model.catalogue import TYPES
 from .active import active_object, active_settings, can_edit, current_scene
+from .reports import finished
 
 ADJUST = BoolProperty(
     name="Melanin and Blood",
@@ -103,13 +104,9 @@ def _match(operator: Any, context: bpy.types.Context, colour: Any) -> set[str]:
     """Give the active object the skin nearest to a colour of the scene's working space."""
     rec709: Any = Color(colour).from_scene_linear_to_rec709_linear()
     linear = np.clip(tuple(rec709), 0.0, 1.0)
-    try:
-        said = match_colour(active_settings(context), linear, adjust=operator.adjust)
-    except InputError as error:
-        operator.report({"ERROR"}, str(error))
-        return {"CANCELLED"}
-    operator.report({"INFO"}, said)
-    return {"FINISHED"}
+    return finished(
+        operator, lambda: match_colour(active_settings(context), linear, adjust=operator.adjust)
+    )
 
 
 class SKIN_TAN_OT_reset_biology(bpy.types.Operator):  # noqa: N801

@@ -2,11 +2,10 @@
 
 import bpy
 
-from hylios.errors import InputError
-
 from .. import timing
 from ..apply import timeable
 from .active import active_mesh, active_object, current_scene
+from .reports import finished
 
 
 class SKIN_TAN_OT_reset_timing(bpy.types.Operator):  # noqa: N801
@@ -20,14 +19,9 @@ class SKIN_TAN_OT_reset_timing(bpy.types.Operator):  # noqa: N801
         return active_mesh(context) is not None
 
     def execute(self, context):
-        try:
-            obj = timeable(active_object(context))
-            message = timing.reset(obj, current_scene(context))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
-        return {"FINISHED"}
+        return finished(
+            self, lambda: timing.reset(timeable(active_object(context)), current_scene(context))
+        )
 
 
 class SKIN_TAN_OT_go_to_darkest_day(bpy.types.Operator):  # noqa: N801
@@ -41,10 +35,7 @@ class SKIN_TAN_OT_go_to_darkest_day(bpy.types.Operator):  # noqa: N801
         return active_mesh(context) is not None
 
     def execute(self, context):
-        try:
-            message = timing.show_darkest(timeable(active_object(context)), current_scene(context))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
-        return {"FINISHED"}
+        return finished(
+            self,
+            lambda: timing.show_darkest(timeable(active_object(context)), current_scene(context)),
+        )

@@ -5,10 +5,9 @@ from typing import Any, cast
 import bpy
 from bpy.props import EnumProperty
 
-from hylios.errors import InputError
-
 from ..props.scene import VIEW_ITEMS
 from ..views import switch_view
+from .reports import finished
 
 
 class SKIN_TAN_OT_switch_view(bpy.types.Operator):  # noqa: N801
@@ -24,10 +23,4 @@ class SKIN_TAN_OT_switch_view(bpy.types.Operator):  # noqa: N801
         return next(says for name, _, says, _ in VIEW_ITEMS if name == properties.view)
 
     def execute(self, context):
-        try:
-            message = switch_view(cast(Any, self).view)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, message)
-        return {"FINISHED"}
+        return finished(self, lambda: switch_view(cast(Any, self).view))

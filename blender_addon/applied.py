@@ -69,18 +69,16 @@ def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     return bool(settings.group and settings.applied) and settings.applied != text_of(obj, scene)
 
 
-def is_only_schedule_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
-    """Whether no setting but the times in the sun and the sensitivity differs from what shows."""
-    former, now = settings_of(obj).applied, text_of(obj, scene)
+def is_only_schedule_changed(former: str, now: str) -> bool:
+    """Whether no setting but the times in the sun and the sensitivity differs in two texts."""
     return former != now and former.split(SEPARATOR)[1:] == now.split(SEPARATOR)[1:]
 
 
-def is_only_biology_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
-    """Whether no setting but the biology differs from what shows."""
-    former, now = (
-        text.split(SEPARATOR) for text in (settings_of(obj).applied, text_of(obj, scene))
-    )
-    return former != now and (former[0], former[2:]) == (now[0], now[2:])
+def is_only_biology_changed(former: str, now: str) -> bool:
+    """Whether no setting but the biology differs in two texts."""
+    schedule, *others = former.split(SEPARATOR)
+    schedule_now, *others_now = now.split(SEPARATOR)
+    return former != now and (schedule, others[1:]) == (schedule_now, others_now[1:])
 
 
 def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> object:

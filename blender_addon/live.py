@@ -19,7 +19,7 @@ from bpy.app.handlers import persistent
 
 from hylios.errors import InputError
 
-from . import applied
+from . import applied, timers
 from .apply import apply_tan, tannable
 from .model.history import DRAG, FULL, Precision
 from .model.tan import history_of, look_of
@@ -44,7 +44,7 @@ def notice(scene: bpy.types.Scene, depsgraph: Any) -> None:
     updated = (item.id.original for item in depsgraph.updates)
     objects = [block for block in updated if isinstance(block, bpy.types.Object)]
     if any(_is_stale(obj, scene) for obj in objects):
-        _wait(show_changes, 0.0)
+        timers.wait(show_changes, 0.0)
 
 
 @persistent
@@ -54,16 +54,17 @@ def after_undo(*_: Any) -> None:
     for obj in scene.objects:
         settings = settings_of(obj)
         if settings.group is not None and settings.live and settings.applied:
-            _restore_look(obj, scene)
-            _restore(obj, scene)
-    _wait(make_exact, REST_SECONDS)
+            text = applied.text_of(obj, scene)
+            _restore_look(obj, text)
+            _restore(obj, text)
+    timers.wait(make_exact, REST_SECONDS)
 
 
 @persistent
 def after_loading(*_: Any) -> None:
     """Handler: a file that Blender saved by itself may hold what had not been made exact."""
     if _stale(_scene()):
-        _wait(show_changes, 0.0)
+        timers.wait(show_changes, 0.0)
 
 
 @persistent
@@ -79,7 +80,7 @@ def show_changes() -> float | None:
         return BUSY_SECONDS
     scene = _scene()
     _show(_stale(scene), scene, DRAG)
-    _wait(make_exact, REST_SECONDS)
+    timers.wait(make_exact, REST_SECONDS)
     return None
 
 
@@ -108,13 +109,13 @@ def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precisio
     """Show an object's settings, and return whether Apply did it; else pixels were changed."""
     settings, text = settings_of(obj), applied.text_of(obj, scene)
     if settings.applied == text and _is_alone(obj) and _lasts(obj, text):
-        _restore_look(obj, scene)
-        _restore(obj, scene)
-    elif applied.is_only_schedule_changed(obj, scene) and _is_alone(obj):
-        _restore_look(obj, scene)
-        show_schedule(obj, scene, precision)
-    elif precision is DRAG and _is_only_look_changed(obj, scene):
-        show_look(obj, scene, rough=True)
+        _restore_look(obj, text)
+        _restore(obj, text)
+    elif applied.is_only_schedule_changed(settings.applied, text) and _is_alone(obj):
+        _restore_look(obj, text)
+        show_schedule(obj, text, precision)
+    elif precision is DRAG and _is_only_look_changed(obj, text):
+        show_look(obj, text, rough=True)
     else:
         takes_longer = settings.biology.is_changed() or has_several(obj)
         apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
@@ -127,10 +128,13 @@ def _lasts(obj: bpy.types.Object, text: str) -> bool:
     return all(image.get(images.LASTING) == applied.digest(text) for image in _history(obj))
 
 
-def show_schedule(
-    obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precision = DRAG
-) -> None:
+def show_schedule(obj: bpy.types.Object, text: str, precision: Precision) -> None:
     """Put an object's schedule into the images of its history; lasting if it is exact.
+
+    Parameters
+    ----------
+    text : str
+        Of its settings, as `applied.text_of` has it.
 
     Raises
     ------
@@ -140,7 +144,6 @@ def show_schedule(
     tannable(obj)
     settings = settings_of(obj)
     history = history_of(settings.values(), precision)
-    text = applied.text_of(obj, scene)
     pairs = zip(_history(obj), (history.coordinates, history.places), strict=True)
     for image, values in pairs:
         images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
@@ -148,61 +151,56 @@ def show_schedule(
         settings.applied = text
 
 
-def show_look(obj: bpy.types.Object, scene: bpy.types.Scene, *, rough: bool) -> None:
-    """Put an object's biology into the images of its look.
-
-    Raises
-    ------
-    InputError
-        If Apply would refuse.
-    """
+def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
+    """Put an object's biology into the images of its look; else as `show_schedule`."""
     tannable(obj)
     settings = settings_of(obj)
     look = vars(look_of(settings.values(), rough=rough))
-    content = applied.look_digest(applied.text_of(obj, scene))
+    content = applied.look_digest(text)
     for role, image in (nodes.own_look(settings.group) or {}).items():
         images.swap_pixels(image, look[LOOK_VALUES[role]], content, pack=True)
         image.buffers_free()  # Blender converts colours as it reads them from the packed file
 
 
-def _is_only_look_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+def _is_only_look_changed(obj: bpy.types.Object, text: str) -> bool:
     """Whether only biology changed, in a look that no other object shows."""
-    look = nodes.own_look(settings_of(obj).group)
-    if look is None or not applied.is_only_biology_changed(obj, scene):
+    settings = settings_of(obj)
+    look = nodes.own_look(settings.group)
+    if look is None or not applied.is_only_biology_changed(settings.applied, text):
         return False
     users = Users()
     return not any(users.others(image, obj) for image in look.values())
 
 
-def _restore_look(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
+def _restore_look(obj: bpy.types.Object, text: str) -> None:
     """Have the images of a look show what they hold, which must be that of the biology."""
     look = nodes.own_look(settings_of(obj).group)
     if look is None:
         return
-    former, text = settings_of(obj).applied, applied.text_of(obj, scene)
+    former = settings_of(obj).applied
     wanted = applied.look_digest(text)
     shown = {image.get(images.SHOWN) for image in look.values()}
     if shown == {None} and wanted == applied.look_digest(former):
         shown = {wanted}
     for image in look.values():
         image.reload()
-    is_its_own = wanted == applied.look_digest(former) or _is_only_look_changed(obj, scene)
+    is_its_own = wanted == applied.look_digest(former) or _is_only_look_changed(obj, text)
     if shown != {wanted} and is_its_own:
         with suppress(InputError):
-            show_look(obj, scene, rough=False)
+            show_look(obj, text, rough=False)
 
 
-def _restore(obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
+def _restore(obj: bpy.types.Object, text: str) -> None:
     settings = settings_of(obj)
-    text = applied.text_of(obj, scene)
-    is_schedule = text == settings.applied or applied.is_only_schedule_changed(obj, scene)
+    former = settings.applied
+    is_schedule = text == former or applied.is_only_schedule_changed(former, text)
     if not is_schedule or not _is_alone(obj):
         settings.undone = text
         return
     restored = [images.restore(image, applied.digest(text)) for image in _history(obj)]
     if not all(restored):
         try:
-            show_schedule(obj, scene, FULL)
+            show_schedule(obj, text, FULL)
         except InputError:
             settings.undone = text
 
@@ -248,15 +246,6 @@ def _is_right(group: bpy.types.NodeTree, text: str) -> bool:
     }
 
 
-def _wait(timer: Any, seconds: float) -> None:
-    """Have a timer called in so many seconds, not before; without a window nothing calls it."""
-    if bpy.app.background:
-        return
-    if bpy.app.timers.is_registered(timer):
-        bpy.app.timers.unregister(timer)
-    bpy.app.timers.register(timer, first_interval=seconds)
-
-
 HANDLERS = (
     ("depsgraph_update_post", notice),
     ("undo_post", after_undo),
@@ -275,5 +264,4 @@ def unregister() -> None:
     for name, handler in HANDLERS:
         getattr(bpy.app.handlers, name).remove(handler)
     for timer in (show_changes, make_exact):
-        if bpy.app.timers.is_registered(timer):
-            bpy.app.timers.unregister(timer)
+        timers.forget(timer)

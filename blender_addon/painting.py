@@ -9,6 +9,7 @@ from typing import Any, cast
 import bpy
 from bpy.app.handlers import persistent
 
+from . import timers
 from .scene.masks import COPIES_KEY
 from .scene.vertex_groups import mask_names, refresh
 
@@ -21,10 +22,8 @@ def notice(scene: bpy.types.Scene, depsgraph: Any) -> None:
     del scene
     updates = (item.id.original for item in depsgraph.updates if item.is_updated_geometry)
     painted = any(isinstance(block, bpy.types.Object) and _is_painted(block) for block in updates)
-    if painted and not bpy.app.background:
-        if bpy.app.timers.is_registered(show_strokes):
-            bpy.app.timers.unregister(show_strokes)
-        bpy.app.timers.register(show_strokes, first_interval=REST_SECONDS)
+    if painted:
+        timers.wait(show_strokes, REST_SECONDS)
 
 
 def show_strokes() -> float | None:
@@ -50,5 +49,4 @@ def register() -> None:
 
 def unregister() -> None:
     bpy.app.handlers.depsgraph_update_post.remove(notice)
-    if bpy.app.timers.is_registered(show_strokes):
-        bpy.app.timers.unregister(show_strokes)
+    timers.forget(show_strokes)

@@ -15,8 +15,9 @@ import numpy as np
 
 import blender_addon
 from blender_addon import live
+from blender_addon.applied import text_of
 from blender_addon.apply import apply_tan
-from blender_addon.model.history import FULL
+from blender_addon.model.history import DRAG, FULL
 from examples.bench_lines import milliseconds, report_at_most
 from examples.demo.tan_lines import silence_blender
 
@@ -86,7 +87,7 @@ def report_biology() -> None:
 
     def move(run: int) -> None:
         obj.skin_tan.biology.melanin = 1.1 + 0.02 * run
-        live.show_look(obj, bpy.context.scene, rough=True)
+        live.show_look(obj, text_of(obj, bpy.context.scene), rough=True)
 
     first, *others = milliseconds(move, 1 + REPEATS)
     report_at_most("biology slider, the first move", [first], "ms", BIOLOGY_COLD)
@@ -107,11 +108,11 @@ def report_schedules(folder: Path) -> None:
 
         def drag(run: int, obj=obj, shown=shown, change=change) -> None:
             change(run)
-            live.show_schedule(obj, shown)
+            live.show_schedule(obj, text_of(obj, shown), DRAG)
 
         def release(run: int, obj=obj, shown=shown, change=change) -> None:
             change(run)
-            live.show_schedule(obj, shown, FULL)
+            live.show_schedule(obj, text_of(obj, shown), FULL)
 
         def press(run: int, obj=obj, shown=shown, change=change) -> None:
             change(run)

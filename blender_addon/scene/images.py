@@ -77,6 +77,12 @@ def _float_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     return image
 
 
+def linear(values: np.ndarray) -> np.ndarray:
+    """Linear light of sRGB's coded values (IEC 61966-2-1)."""
+    curved = ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4
+    return np.where(values <= 0.04045, values / 12.92, curved)
+
+
 def _set_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
     pixels = np.ones((*values.shape[:2], 4), dtype=np.float32)
     pixels[..., :3] = values

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
+from .images import linear
 from .mask_nodes import NUMBER, WEIGHTS, ShownMask, slope_and_offset
 from .masks import (
     COLOURS,
@@ -228,11 +229,5 @@ def _of_image(image: Any, places: NDArray[np.float32], channel: str) -> NDArray[
         colours = sampled[:, :3] if image.channels == 3 else np.repeat(sampled[:, :1], 3, axis=1)
         sampled = np.concatenate([colours, opaque], axis=1)
     if not image.is_float and "sRGB" in image.colorspace_settings.name:
-        sampled[:, :3] = _linear(sampled[:, :3])
+        sampled[:, :3] = linear(sampled[:, :3])
     return _of_channel(sampled, channel)
-
-
-def _linear(values: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Linear light of sRGB's coded values (IEC 61966-2-1)."""
-    curved = ((np.maximum(values, 0.0) + 0.055) / 1.055) ** 2.4
-    return np.where(values <= 0.04045, values / 12.92, curved)

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .images import linear
 from .recolour import FACTOR, INSERTED
 from .trees import shaders
 
@@ -131,12 +132,7 @@ def _median(image: Any, places: NDArray | None) -> NDArray[np.float64] | None:
     pixels = pixels.reshape(-1, 4)
     opaque = pixels[pixels[:, 3] > 0.5]
     colour = np.median(opaque if len(opaque) else pixels, axis=0)[:3].astype(float)
-    return colour if image.is_float else _linear(colour)
-
-
-def _linear(colour: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Linear values of sRGB ones."""
-    return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
+    return colour if image.is_float else linear(colour)
 
 
 def _pixels(image: Any) -> NDArray[np.float32] | None:

@@ -12,9 +12,11 @@ def draw_timeline(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None
     column = layout.column(align=True)
     for day, frame in (("first_day", "first_frame"), ("last_day", "last_frame")):
         row = column.row(align=True)
-        row.prop(settings, day, text="Day")
         if way == FRAMES or (way == SPEED and frame == "first_frame"):
+            row.prop(settings, day, text="Day")
             row.prop(settings, frame, text="at Frame")
+        else:
+            row.prop(settings, day)
     if way == SPEED:
         column.prop(settings, "days_per_second")
     row = layout.row(align=True)

@@ -104,6 +104,8 @@ GERMAN = {
     "Start and Speed": "Beginn und Tempo",
     "Two Frames": "Zwei Bilder",
     "Own Keys": "Eigene Keyframes",
+    "First Day": "Erster Tag",
+    "Last Day": "Letzter Tag",
     "at Frame": "bei Bild",
     "Days per Second": "Tage pro Sekunde",
     "Reset": "Zurücksetzen",

@@ -193,7 +193,7 @@ def of_sun(
     >>> absorptance = hylios.ultraviolet_absorptance(hylios.specimen("S3"))
     >>> sun = hylios.sun_doses(date(2025, 6, 21), 10, 16, 40.0, absorptance)
     >>> print(f"{sun.erythemal.sum():.0f} SED, counts as {sun.melanogenesis.sum():.0f}")
-    41 SED, counts as 128
+    43 SED, counts as 136
     """
     for hour in (first, last):
         require_range("hour of sun", hour, 0.0, 24.0)

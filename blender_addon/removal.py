@@ -6,17 +6,11 @@ from hylios.errors import InputError
 
 from .apply import tannable
 from .props import settings_of
-from .scene import slots
 from .scene.changes import Changes
 from .scene.day_removal import remove_day
-from .scene.plan import DAY_PROPERTY
 from .scene.removal import take_off
+from .scene.slots import has_tan
 from .scene.vertex_groups import remove_own
-
-
-def has_tan(obj: bpy.types.Object) -> bool:
-    """Whether an object has been given a tan."""
-    return settings_of(obj).group is not None or DAY_PROPERTY in obj
 
 
 def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> str:
@@ -36,7 +30,7 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
         If the object has no tan, or cannot be changed.
     """
     obj = tannable(obj)
-    if not has_tan(obj) and not any(slots.shown_groups(obj)):
+    if not has_tan(obj):
         raise InputError(f"{obj.name!r} has no tan; Apply Tan gives it one.")
     settings = settings_of(obj)
     with Changes() as changes:

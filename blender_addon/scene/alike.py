@@ -22,7 +22,7 @@ COSMETIC = frozenset(
 PLACES = frozenset("location location_absolute width height dimensions parent".split())
 """Where a node lies in its editor."""
 
-OURS = frozenset((FORMER, MADE, "skin_tan_relinked"))
+OURS = frozenset((FORMER, MADE, "skin_tan_relinked", "skin_tan_waits"))
 DEPTH = 8
 """How deep structures lie inside a node's: a curve's mapping, its curves, their points."""
 

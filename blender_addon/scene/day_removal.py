@@ -126,6 +126,9 @@ def _take_out(obj: bpy.types.Object, action: Any, slot: Any) -> None:
     _empty(action, slot)
     if ACTION not in made or len(action.slots):
         return
+    for copy in bpy.data.actions:
+        if copy.get(FORMER) == action:
+            del copy[FORMER]
     animation: Any = obj.animation_data
     animation.action = None
     if ANIMATION in made and not (animation.nla_tracks or animation.drivers):

@@ -229,6 +229,13 @@ def replace(
     return kept
 
 
+def remove_unused() -> None:
+    """Remove images of this add-on that nothing shows any more, and that nobody has renamed."""
+    for image in list(bpy.data.images):
+        if MARK in image and image.users == 0 and image.library is None and _has_its_name(image):
+            bpy.data.images.remove(image)
+
+
 def _remove_unused(image: bpy.types.Image) -> None:
     if image.users == 0:
         bpy.data.images.remove(image)

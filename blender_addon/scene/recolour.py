@@ -11,6 +11,7 @@ from typing import Any
 
 import bpy
 
+from . import links
 from .changes import Changes
 from .nodes import bridge, find_input, find_output
 from .trees import all_nested, shaders, tree_of
@@ -29,6 +30,7 @@ def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: C
     """
     changes.may_add_to(tree.nodes)
     changes.may_relink(tree)
+    links.restore(tree, {factor.name for factor in inserted(tree, FACTOR)})
     tans, ends = inserted(tree, TAN), list(ends)
     for tan in tans:
         if tan.node_tree is None:
@@ -43,6 +45,26 @@ def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: C
     for end in ends:
         if not is_recoloured(end):
             _put_factor(tree, end, ratio)
+    note_links(tree, changes)
+
+
+def note_links(tree: Any, changes: Changes) -> None:
+    """Note what leads by way of factors to shaders, for the case that somebody deletes a factor."""
+    factors = [
+        (factor, int(factor.get(PLACE, -1)), list(_shaders_of(factor)))
+        for factor in inserted(tree, FACTOR)
+    ]
+    links.remember(tree, factors, changes)
+
+
+def _shaders_of(factor: Any) -> Iterator[Any]:
+    """Inputs to which a factor leads, past what a view has put behind it."""
+    for link in factor.outputs[0].links:
+        if link.to_node.get(INSERTED) == INSTEAD:
+            result = find_output(link.to_node, "Result_Color")
+            yield from (beyond.to_socket for beyond in result.links)
+        else:
+            yield link.to_socket
 
 
 def _put_factor(tree: Any, end: Any, ratio: Any) -> None:
@@ -90,9 +112,13 @@ def inserted(tree: Any, what: str | None = None) -> list[Any]:
 
 
 def is_in(block: bpy.types.ID) -> bool:
-    """Whether a material or a node group was recoloured, maybe in a group inside."""
+    """Whether a material or a node group was recoloured, maybe in a group inside.
+
+    It was so too where somebody has deleted the nodes since.
+    """
     tree = tree_of(block)
-    return any(inserted(inner) for inner in (tree, *all_nested(tree)))
+    trees = [inner for inner in (tree, *all_nested(tree)) if inner is not None]
+    return any(inserted(inner) or links.LINKS_KEY in inner for inner in trees)
 
 
 def remarks(material: bpy.types.Material) -> Iterator[str]:
@@ -132,6 +158,8 @@ def take_out(tree: Any) -> None:
         _take_out_factor(tree, factor)
     for tan in inserted(tree, TAN):
         tree.nodes.remove(tan)
+    links.restore(tree)
+    links.forget(tree)
 
 
 def show_instead(tree: Any, output: str, changes: Changes) -> None:
@@ -177,7 +205,7 @@ def _take_out_factor(tree: Any, factor: Any) -> None:
         if source is None:
             _set_colour(end, colour)
         else:
-            _link_at(tree, place, (source[0], end, source[1]))
+            links.link_at(tree, place, (source[0], end, source[1]))
 
 
 def _set_colour(end: Any, colour: tuple[float, ...]) -> None:
@@ -187,13 +215,3 @@ def _set_colour(end: Any, colour: tuple[float, ...]) -> None:
         end.default_value = colour
     elif end.type == "VALUE":
         end.default_value = sum(colour) / 3.0
-
-
-def _link_at(tree: Any, place: int, link: tuple[Any, Any, bool]) -> None:
-    """Link two sockets; of the tree's links it gets the number that it had before."""
-    later = list(tree.links)[place:] if place >= 0 else []
-    ends = [(other.from_socket, other.to_socket, other.is_muted) for other in later]
-    for other in later:
-        tree.links.remove(other)
-    for start, end, is_muted in (link, *ends):
-        tree.links.new(start, end).is_muted = is_muted

@@ -133,12 +133,12 @@ def take_out(group: Any, changes: Changes) -> None:
             if any(former.from_node.get(ROLE_KEY) in ROLES for former in end.links):
                 for start in nodes.of_role(group, source):
                     group.links.new(nodes.find_output(start, output), end)
-    changes.at_the_end(partial(remove_nodes, group, [n for made in ours.values() for n in made]))
+    changes.at_the_end(partial(_remove_nodes, group, [n for made in ours.values() for n in made]))
 
 
-def remove_nodes(group: Any, going: Iterable[Any] | None = None) -> None:
-    """Remove the nodes of regions from a group, and their own group where nothing shows it."""
-    for node in list(nodes.of_role(group, "regions")) if going is None else list(going):
+def _remove_nodes(group: Any, going: Iterable[Any]) -> None:
+    """Remove nodes of regions from a group, and their own group where nothing shows it."""
+    for node in list(going):
         tree = getattr(node, "node_tree", None)
         group.nodes.remove(node)
         _remove_unused(tree)

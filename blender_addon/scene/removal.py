@@ -4,18 +4,17 @@ A material or group that was copied for the object makes room for the original, 
 same but for the tan. What the artist has edited since stays, without the tan.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, cast
 
 import bpy
 
-from . import detail, nodes, recolour, regions, several, slots, vertex_groups, views
+from . import detail, images, nodes, recolour, region_nodes, several, slots, vertex_groups, waiting
 from .alike import alike
 from .changes import Changes
-from .images import MARK
-from .ownership import FORMER, MADE, Users, names, remembered
+from .ownership import FORMER, MADE, Users, is_local, names, remembered
 from .trees import all_nested, tan_groups, tree_of
 
 
@@ -29,12 +28,18 @@ class GivenBack:
         From materials and groups to what takes their place; None where a slot gets empty.
     stripped : list
         Materials and groups that stay, and from which the tan is taken out.
+    originals : dict
+        From copies that are the same as their originals but for the tan to these.
+    waiting : list
+        Of those that stay, the copies whose originals still have a tan.
     kept : list of Material
         Copies for the object that stay, since they were edited.
     """
 
     stands_for: dict[Any, Any] = field(default_factory=dict)
     stripped: list[Any] = field(default_factory=list)
+    originals: dict[Any, Any] = field(default_factory=dict)
+    waiting: list[Any] = field(default_factory=list)
     kept: list[Any] = field(default_factory=list)
 
 
@@ -45,17 +50,37 @@ def take_off(obj: bpy.types.Object, changes: Changes) -> list[str]:
     shown = slots.materials_of(obj)
     tanned = [block for block in shown if any(tan_groups(tree_of(block))) or recolour.is_in(block)]
     own = settings.material
+    tanned += _left(obj, group, tanned, users)
+    groups = dict.fromkeys(inner for block in tanned for inner in tan_groups(tree_of(block)))
     said = give_back(obj, tanned, users, changes)
     if settings.material is not None:
         changes.set(settings, "material", None)
     changes.set(settings, "group", None)
     vertex_groups.remove_own(obj, changes)
-    made = [] if group is None else [*nodes.made_images(group), *several.made_images(group)]
     several.remove_attributes(obj, group, changes)
     if own is not None and MADE in own:
         changes.at_the_end(partial(_remove_unused, [own]))
-    changes.at_the_end(partial(_remove_group, group, made))
+    changes.at_the_end(partial(_remove_groups, [group, *groups]))
     return said
+
+
+def _left(
+    obj: bpy.types.Object,
+    group: bpy.types.NodeTree | None,
+    tanned: list[bpy.types.Material],
+    users: Users,
+) -> list[bpy.types.Material]:
+    """Materials with an object's tan that no object has in a slot any more."""
+    formers = [block.get(FORMER) for block in tanned]
+    return [
+        block
+        for block in bpy.data.materials
+        if is_local(block)
+        and (recolour.is_in(block) or MADE in block)
+        and (block in formers or group in tan_groups(tree_of(block)))
+        and block not in slots.materials_of(obj)
+        and not users.others(block, obj)
+    ]
 
 
 def give_back(
@@ -66,15 +91,14 @@ def give_back(
     artist_s = [block for block in tanned if block not in ours and recolour.is_in(block)]
     others = [block for block in tanned if block not in (*ours, *artist_s)]
     back = GivenBack({block: block.get(FORMER) for block in ours})
-    _sort_out(obj, artist_s, users, back)
+    _sort_out(artist_s, {block for block in artist_s if not users.others(block, obj)}, users, back)
     _fill_slots(obj, back, changes)
     entries = {entry.material: entry.tans for entry in remembered(obj).materials}
     kept = {back.stands_for.get(block, block): tans for block, tans in entries.items()}
     kept.pop(None, None)
     slots.remember(obj, kept, changes)
     changes.at_the_end(partial(_strip, back))
-    replaced = [block for block in back.stands_for if back.stands_for[block] not in back.stripped]
-    changes.at_the_end(partial(_remove_unused, replaced))
+    changes.at_the_end(partial(_remove_unused, list(back.stands_for)))
     return _sentences(ours + artist_s, back, others)
 
 
@@ -84,42 +108,46 @@ def _is_ours(obj: bpy.types.Object, block: bpy.types.Material) -> bool:
 
 
 def _sort_out(
-    obj: bpy.types.Object, blocks: list[bpy.types.Material], users: Users, back: GivenBack
+    blocks: list[bpy.types.Material], alone: set[Any], users: Users, back: GivenBack
 ) -> None:
     """Of recoloured materials and the groups in them, find what goes back to its original."""
     inside = dict.fromkeys(
         group for block in blocks for group in all_nested(tree_of(block)) if recolour.is_in(group)
     )
     around = [group for group in inside if nodes.LAYOUT_KEY not in group]
+    alone = {*alone, *(group for group in around if users.roots(group) <= alone)}
     for block in (*around, *blocks):
         former = block.get(FORMER)
-        if former is not None and not recolour.is_in(former) and _is_unedited(block, former, back):
+        if former is None or not _is_unedited(block, former, back.originals):
+            continue
+        back.originals[block] = former
+        if former in alone or not recolour.is_in(former):
             back.stands_for[block] = former
-    going = {block for block in blocks if not users.others(block, obj)}
     for block in (*around, *blocks):
         if block in back.stands_for:
             continue
-        if isinstance(block, bpy.types.Material):
-            is_alone = block in going
-        else:
-            is_alone = users.roots(block) <= going
-        if not is_alone:
-            back.stands_for[block] = copy = block.copy()
-            back.stripped.append(copy)
-        else:
-            back.stripped.append(block)
-            if FORMER in block and isinstance(block, bpy.types.Material):
-                back.kept.append(block)
+        stays = block
+        if block not in alone:
+            back.stands_for[block] = stays = block.copy()
+            if block not in back.originals:
+                stays[FORMER] = block
+        back.stripped.append(stays)
+        if block in back.originals or block not in alone:
+            back.waiting += [stays] if is_local(stays[FORMER]) else []
+        elif FORMER in block and isinstance(block, bpy.types.Material):
+            back.kept.append(block)
 
 
-def _is_unedited(block: Any, former: Any, back: GivenBack) -> bool:
+def _is_unedited(block: Any, former: Any, originals: Mapping[Any, Any]) -> bool:
     """Whether a copy is the same as its original but for the tan."""
-    trial = block.copy()
+    trials = block.copy(), former.copy()
     try:
-        recolour.take_out(tree_of(trial))
-        return alike(trial, former, back.stands_for)
+        for trial in trials:
+            recolour.take_out(tree_of(trial))
+        return alike(*trials, originals)
     finally:
-        _collection(trial).remove(trial)
+        for trial in trials:
+            _collection(trial).remove(trial)
 
 
 def _collection(block: Any) -> Any:
@@ -151,8 +179,11 @@ def _strip(back: GivenBack) -> None:
         for node in tree.nodes:
             if getattr(node, "node_tree", None) in back.stands_for:
                 node.node_tree = back.stands_for[node.node_tree]
-        for key in (FORMER, slots.RELINKED):
-            block.pop(key, None)
+        if block in back.waiting:
+            waiting.wait(block)
+        else:
+            waiting.forget(block)
+    waiting.reunite()
 
 
 def _remove_unused(blocks: Iterable[Any]) -> None:
@@ -169,17 +200,17 @@ def _is_valid(block: Any) -> bool:
         return False
 
 
-def _remove_group(group: Any, made: list[bpy.types.Image]) -> None:
-    """Remove a tan's group and its images, and the relief of skin, where nothing shows them."""
-    if group is not None and _is_valid(group) and group.users == 0:
-        several.remove_nodes(group)
-        regions.remove_nodes(group)
-        bpy.data.node_groups.remove(group)
-    for image in dict.fromkeys(made):
-        if image.users == 0 and MARK in image:
-            bpy.data.images.remove(image)
+def _remove_groups(groups: Iterable[Any]) -> None:
+    """Remove tans' groups that nothing shows, and what was made for tans and shows in none."""
+    for group in groups:
+        if group is not None and _is_valid(group) and is_local(group) and group.users == 0:
+            bpy.data.node_groups.remove(group)
+    for tree in list(bpy.data.node_groups):
+        is_ours = several.ATTRIBUTES_KEY in tree or region_nodes.SHOWN_KEY in tree
+        if is_ours and is_local(tree) and tree.users == 0:
+            bpy.data.node_groups.remove(tree)
     detail.remove_unused_group()
-    views.remove_unused()
+    images.remove_unused()
 
 
 def _sentences(

@@ -300,12 +300,6 @@ def _bridge(group: Any, role: str, output: str, node: Any, own: str) -> None:
             group.links.new(node.outputs[own], end)
 
 
-def remove_nodes(group: bpy.types.NodeTree) -> None:
-    """Remove the nodes of several masks from a group that goes too."""
-    for node in list(of_role(group, "basis")):
-        _remove_node(group, node)
-
-
 def _remove_node(group: Any, node: Any) -> None:
     tree = node.node_tree
     group.nodes.remove(node)

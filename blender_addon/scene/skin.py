@@ -67,6 +67,8 @@ class Skin:
         said = said if updated else []
         if self.fresh:
             said += self._replace(changes) if self.replacing else self._recolour(changes)
+        for tree in self.trees():
+            recolour.note_links(tree, changes)
         self._fill_slots(changes)
         if self.own is not None:
             said.append(self._put_own(changes))

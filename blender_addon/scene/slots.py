@@ -10,6 +10,7 @@ import numpy as np
 from .changes import Changes
 from .ownership import is_local, remembered
 from .painted import is_like_skin, painted_colour
+from .plan import DAY_PROPERTY
 from .trees import chain, tan_groups, tree_of
 
 SKIN = frozenset(
@@ -56,6 +57,13 @@ def shown_groups(obj: bpy.types.Object) -> Iterator[bpy.types.NodeTree]:
     if remembered(obj).material is not None:
         shown[remembered(obj).material] = None  # geometry nodes may show it
     yield from dict.fromkeys(group for one in shown for group in tan_groups(tree_of(one)))
+
+
+def has_tan(obj: bpy.types.Object) -> bool:
+    """Whether an object has been given a tan, or a material with that of another."""
+    if remembered(obj).group is not None or DAY_PROPERTY in obj:
+        return True
+    return any(shown_groups(obj))
 
 
 def shown_trees(obj: bpy.types.Object, group: bpy.types.NodeTree) -> Iterator[bpy.types.NodeTree]:

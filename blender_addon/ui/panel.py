@@ -8,6 +8,7 @@ from ..applied import is_changed
 from ..model.lines import Line
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
+from ..scene.slots import has_tan
 from ..scene.timeline import shown_day
 from .biology import draw_biology
 from .curve import draw_curve
@@ -51,6 +52,8 @@ class _Main:
         if day is not None:
             draw_lines(layout, (Line("This frame shows day {day:.1f}", day=day),), "TIME")
         if settings.group is None:
+            if has_tan(obj):
+                layout.operator("skin_tan.remove", icon="X")
             return
         draw_curve(layout, settings)
         layout.prop(settings, "live")

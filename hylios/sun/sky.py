@@ -118,9 +118,8 @@ def sunlight(zenith: ArrayLike, sky: ClearSky, distance: ArrayLike = 1.0) -> Sun
     # The slope at which plane layers dim the direct light as the curved air does.
     passed = np.maximum(through.at(vertical / slant), straight)
     direct = above * straight
-    once = direct * cosine + above / mass * (passed - straight)
-    level = once / (1.0 - sky.albedo * through.returned)
-    return Sunlight(wavelengths, direct, level - direct * cosine, level)
+    level = above * cosine * passed / (1.0 - sky.albedo * through.returned)
+    return Sunlight(wavelengths, direct, np.maximum(level - direct * cosine, 0.0), level)
 
 
 @lru_cache(maxsize=64)

@@ -32,6 +32,7 @@ from hylios.tanning import Exposures, MelaninDynamics
 from hylios.tanning.shares import Energies, retained, states_of_shares
 
 from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
+from .distinct import distinct
 from .principal import Shapes, principal_shapes
 
 MOST_MASKS = 8
@@ -46,13 +47,11 @@ WANTED = {"mean": 0.003, "at 99 %": 0.017, "most": 0.039}
 """Errors of u with which a rank is enough. An error of .01 is .03 to .19 CIEDE2000, so these are
 .05, .3 and .7 where it is seen best."""
 
-FREQUENT, TRAINING, WORST = 256, 1024, 256
-"""Points that decide the shapes: most frequent ones, all, and how many bad ones are added."""
+TRAINING, WORST = 1024, 256
+"""Points that decide the shapes, and how many bad ones are added."""
 
-CHUNK = 1024
-"""Points that are simulated at once."""
-
-SEED = 0
+CHUNK = 256
+"""Points that are simulated at once; of more the numbers do not fit near the processor."""
 
 
 @dataclass(frozen=True)
@@ -61,10 +60,8 @@ class BasisPrecision:
 
     Attributes
     ----------
-    levels : int
-        Even steps of a share that are told apart; fewer where too many points differ.
-    most : int
-        Most points that are simulated.
+    levels, most : int
+        Of `distinct`.
     rows : int
         Most hours.
     rounds : int
@@ -80,10 +77,10 @@ class BasisPrecision:
     rank: int | None = None
 
 
-FULL = BasisPrecision(1023, 100_000, 128, 4)
+FULL = BasisPrecision(127, 30_000, 128, 4)
 """For what stays in a file."""
 
-DRAG = BasisPrecision(127, 8_000, 80, 1, rank=12)
+DRAG = BasisPrecision(6, 6_000, 80, 1, rank=12)
 """For a picture while somebody changes a setting."""
 
 
@@ -162,7 +159,9 @@ def basis(
     first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
     exposures = _of_masks(received)
     energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
-    vectors, counts, point = _distinct(given, precision)
+    vectors, counts, point = distinct(
+        given, energies, exposures.hours, levels=precision.levels, most=precision.most
+    )
     few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
     marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3)
     curves, states = _simulated(energies, vectors, marks, first)
@@ -211,34 +210,6 @@ def _of_masks(received: Sequence[Doses]) -> Exposures:
         those = slice(end - own.hours.size, end)
         melanogenesis[mask, those], thickening[mask, those] = own.melanogenesis, own.thickening
     return Exposures(hours, melanogenesis, thickening)
-
-
-def _distinct(
-    shares: NDArray[np.float64], precision: BasisPrecision
-) -> tuple[NDArray[np.float64], NDArray[np.int_], NDArray[np.int_]]:
-    """Points that differ (U, M), how often they are there, and which of them a point is (N,).
-
-    The most frequent come first, then others in random order.
-    """
-    levels = precision.levels
-    while True:
-        steps = (shares * levels + 0.5).astype(np.int64)
-        key = np.zeros(len(steps), np.int64)
-        for own in steps.T:
-            # Numbered anew for every mask, so that eight of them fit into the integer.
-            key = np.unique(key * (levels + 1) + own, return_inverse=True)[1]
-        _, index, point, counts = np.unique(
-            key, return_index=True, return_inverse=True, return_counts=True
-        )
-        if len(index) <= precision.most or levels <= 1:
-            break
-        levels //= 2
-    order = np.argsort(-counts, kind="stable")
-    rest = np.random.default_rng(SEED).permutation(order[FREQUENT:])
-    order = np.append(order[:FREQUENT], rest)
-    number = np.empty(len(order), int)
-    number[order] = np.arange(len(order))
-    return steps[index[order]] / levels, counts[order], number[point]
 
 
 def _simulated(

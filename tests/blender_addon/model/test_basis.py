@@ -92,7 +92,21 @@ def test_dragging_is_coarser():
     seen = shown(made, made.coefficients[some], hours / 24.0)
     error = np.abs(seen[:, 0] - simulated(received, shares[some], hours)[:, 0])
     assert made.rank == DRAG.rank
-    assert error.mean() < 0.005 and np.quantile(error, 0.98) < 0.025
+    assert error.mean() < 0.005 and np.quantile(error, 0.99) < 0.02
+
+
+def test_points_on_two_sides_of_a_jump_differ_while_dragging():
+    """A share more or less of the dose that just tans; others as near to each other are one."""
+    received = [of_sed(10, 2.0 * SKIN["mmd"]), of_sed(200, 30.0)]
+    just = 0.5 + np.array([-0.004, -0.002, 0.002, 0.004])
+    shares = np.concatenate([np.stack([just, np.ones(4)], axis=1), np.eye(2), np.ones((1, 2))])
+    made = of(received, shares, 20.0, precision=DRAG)
+    first = made.coefficients[:4]
+    assert np.array_equal(first[0], first[1]) and np.array_equal(first[2], first[3])
+    seen = shown(made, first, np.full(4, 6.0))[:, 0]
+    exact = simulated(received, shares[:4], np.full(4, 144))[:, 0]
+    assert seen[2] - seen[1] == pytest.approx(exact[2] - exact[1], abs=0.01)
+    assert exact[2] - exact[1] > 0.05
 
 
 def test_too_many_points_that_differ_are_taken_together():

@@ -1,5 +1,7 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
+from typing import cast
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +10,7 @@ from hylios.errors import InputError
 
 from . import applied, several, timing
 from .model import doses
+from .model.curve import curve_of, is_seen
 from .model.film import film_of
 from .model.look import untanned_colour
 from .model.regions import kinds
@@ -96,6 +99,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
             applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
+        said += [] if rough else [*_on_dose(obj, values), *_on_own_masks(settings)]
         said += several.remarks(of_masks) if of_masks else mask_values.remarks(obj, mask, shown)
         said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
@@ -257,6 +261,29 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks
+
+
+def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
+    """Why no tan can be seen on an object, whatever its masks are."""
+    if not obj.modifiers and obj.mode != "EDIT" and not cast(bpy.types.Mesh, obj.data).polygons:
+        return [f"{obj.name!r} has no faces, so no skin can be seen."]
+    if not settings_of(obj).exposures:
+        return [f"{obj.name!r} has no time in the sun, so nothing tans; add one with +."]
+    if not values.exposures:
+        return [f"All times in the sun of {obj.name!r} are switched off, so nothing tans."]
+    return [] if is_seen(curve_of(values)) else [timing.NOT_SEEN]
+
+
+def _on_own_masks(settings: SkinTanSettings) -> list[str]:
+    """Which exposures are to have a mask of their own and have none."""
+    without = [
+        repr(exposure.name) if exposure.name else f"number {number}"
+        for number, exposure in enumerate(settings.exposures, 1)
+        if exposure.enabled and exposure.own_mask and not masks.Mask.of(exposure.mask)
+    ]
+    if not without:
+        return []
+    return [f"Own Mask is empty in {', '.join(without)}, so the whole body is bare then."]
 
 
 def _on_film(obj: bpy.types.Object, skin: skins.Skin) -> list[str]:

@@ -99,7 +99,9 @@ def from_clothes(
     skin = posed.posed_skin(obj, context)
     surface = posed.posed_clothes(list(request.garments), context)
     if not len(surface.triangles):
-        raise InputError(f"{names(request.garments)} have no faces, so they cover nothing.")
+        are_several = len(request.garments) > 1
+        cover = "have no faces, so they cover" if are_several else "has no faces, so it covers"
+        raise InputError(f"{names(request.garments)} {cover} nothing.")
     unit = 0.001 / body_unit(obj, scene)
     reach = clothes.Reach(request.reach * unit, request.inside * unit, request.softness * unit)
     yield 0.0

@@ -1,5 +1,6 @@
 """The tan of an object whose exposures have several masks, from its settings to its nodes."""
 
+from dataclasses import dataclass
 from typing import cast
 
 import bpy
@@ -12,13 +13,31 @@ from .scene.changes import Changes
 from .scene.mask_values import mask_values
 
 
+@dataclass(frozen=True, eq=False)
+class Computed:
+    """The tan of several masks.
+
+    Attributes
+    ----------
+    domain : str
+        POINT or CORNER: what the basis is told at.
+    basis : Basis
+    said : tuple of str
+        Sentences on the masks.
+    """
+
+    domain: str
+    basis: basis.Basis
+    said: tuple[str, ...]
+
+
 def has_several(obj: bpy.types.Object) -> bool:
     """Whether an object's exposures have several masks."""
     return len(set(settings_of(obj).masks())) > 1
 
 
-def computed(obj: bpy.types.Object, *, rough: bool = False) -> tuple[str, basis.Basis] | None:
-    """Domain and basis of an object's masks; None where there is one mask at most.
+def computed(obj: bpy.types.Object, *, rough: bool = False) -> Computed | None:
+    """The tan of an object's masks; None where there is one mask at most.
 
     Parameters
     ----------
@@ -40,31 +59,33 @@ def computed(obj: bpy.types.Object, *, rough: bool = False) -> tuple[str, basis.
     values = [mask_values(obj, mask) for mask in distinct]
     domain, shares = several.shares_of_masks(mesh, values)
     which = [distinct.index(mask) for mask in masks]
-    return domain, basis_of(settings.values(), which, shares, precision)
+    made = basis_of(settings.values(), which, shares, precision)
+    return Computed(domain, made, tuple(said for own in values for said in own.said))
 
 
 def show(
     obj: bpy.types.Object,
     group: bpy.types.NodeTree,
-    made: tuple[str, basis.Basis] | None,
+    made: Computed | None,
     changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks, or one again; new images by former ones."""
     if made is None:
         several.take_out(obj, group, changes)
         return {}
-    domain, told = made
+    told = made.basis
     rows = images.packed_image(f"Skin Tan Masks {obj.name}", told.rows, is_colour=False)
     days = images.packed_image(f"Skin Tan Mask Days {obj.name}", told.places, is_colour=False)
-    sampled = several.SampledBasis(told.coefficients, told.share, domain, rows, days)
+    sampled = several.SampledBasis(told.coefficients, told.share, made.domain, rows, days)
     return several.show(obj, group, sampled, changes)
 
 
-def remarks(made: tuple[str, basis.Basis] | None) -> list[str]:
-    """A sentence where the masks are too many to show exactly."""
-    if made is None or made[1].error <= basis.WANTED["most"]:
-        return []
+def remarks(made: Computed) -> list[str]:
+    """Sentences on the masks, and on whether they are too many to show exactly."""
+    if made.basis.error <= basis.WANTED["most"]:
+        return [*made.said]
     return [
+        *made.said,
         f"The masks lead to so many different tans that some points are off by up to "
-        f"{made[1].error:.0%} of their melanin."
+        f"{made.basis.error:.0%} of their melanin.",
     ]

@@ -17,6 +17,8 @@ from .scene.changes import Changes
 NEAR = 1.0
 """Days by which the frame with the darkest day may miss it."""
 
+NOT_SEEN = "No tan can be seen: this skin hardly tans, or gets too little sun."
+
 Pair = tuple[float, float]
 """First and last."""
 
@@ -52,7 +54,7 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """
     values = settings_of(obj).values()
     if not is_seen(curve_of(values)):
-        return "No tan can be seen: this skin hardly tans, or gets too little sun."
+        return NOT_SEEN
     if timeline.is_moved_elsewhere(obj):
         return "A driver or a strip of the NLA governs the day of the tan; the frame stays."
     day = darkest_day(history_of(values))

@@ -1,5 +1,6 @@
 """How bare skin goes over the days of a tan: in numbers, in words and as a picture."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,6 +86,13 @@ def curve_of(settings: TanSettings) -> Curve:
     InputError
         If a setting or the table cannot be used.
     """
+    return _curve(settings, table_stamp(settings))
+
+
+@functools.lru_cache(maxsize=4)
+def _curve(settings: TanSettings, stamp: tuple[int, int]) -> Curve:
+    """The curve, kept: Apply and the panel ask for the same."""
+    del stamp  # of the table's file, so that another one counts
     history = history_of(settings, DRAG)
     table = table_with(settings.table, settings.biology, rough=True)
     minimal = settings.minimal_doses(table.provenance)

@@ -66,7 +66,7 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
             obj = tannable(active_object(context))
             with _exposed(obj), _fitted(obj) as fitted:
                 said = " ".join([apply_tan(obj, scene), *fitted])
-            if self.show:
+            if self.show and timing.NOT_SEEN not in said:
                 said = f"{said} {timing.show_darkest(obj, scene)}"
         except InputError as error:
             self.report({"ERROR"}, str(error))

@@ -35,10 +35,13 @@ class MaskValues:
         POINT or CORNER.
     shares : (points,) or (corners,) float32 array
         From 0 to 1.
+    said : tuple of str
+        Sentences on numbers that an artist will not have meant.
     """
 
     domain: str
     shares: NDArray[np.float32]
+    said: tuple[str, ...] = ()
 
 
 def mask_values(
@@ -64,7 +67,7 @@ def mask_values(
         count = len(cast(bpy.types.Mesh, obj.data).vertices)
         return MaskValues("POINT", np.ones(count, np.float32))
     domain, numbers = _numbers(obj, mask, source, depsgraph)
-    return MaskValues(domain, shares_of(mask, numbers))
+    return MaskValues(domain, shares_of(mask, numbers), tuple(_said(mask, numbers)))
 
 
 def shares_of(mask: Mask, numbers: NDArray[np.float32]) -> NDArray[np.float32]:
@@ -75,17 +78,22 @@ def shares_of(mask: Mask, numbers: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def remarks(obj: bpy.types.Object, mask: Mask, shown: ShownMask) -> list[str]:
-    """Sentences on numbers that an artist will not have meant.
+    """Sentences on the one mask of all exposures: on numbers that an artist will not have meant.
 
     Parameters
     ----------
     shown : ShownMask
         What the nodes read for the mask.
     """
-    name = mask.source or (mask.image.name if mask.image else "")
     numbers = _shown_numbers(obj, mask, shown)
-    if numbers is None or not numbers.size:
+    return [] if numbers is None else _said(mask, numbers, ", so nothing tans")
+
+
+def _said(mask: Mask, numbers: NDArray[np.float32], where_covered: str = "") -> list[str]:
+    """Sentences on a mask's numbers."""
+    if not numbers.size:
         return []
+    name = mask.image.name if mask.image else mask.source
     said, is_number = [], np.isfinite(numbers)
     if not is_number.all():
         said.append(
@@ -102,7 +110,7 @@ def remarks(obj: bpy.types.Object, mask: Mask, shown: ShownMask) -> list[str]:
         )
     shares = shares_of(mask, numbers)
     if shares.max() <= 0.0:
-        said.append(f"By the mask {name!r} the whole body is covered, so nothing tans.")
+        said.append(f"By the mask {name!r} the whole body is covered{where_covered}.")
     elif shares.min() >= 1.0:
         said.append(f"By the mask {name!r} the whole body is bare.")
     return said

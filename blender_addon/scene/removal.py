@@ -226,5 +226,10 @@ def _sentences(
     if back.kept:
         said.append(f"Edited since Apply, so a copy stays: {names(back.kept)}.")
     if others:
-        said.append(f"{names(others)} shows the tan by nodes of your own, and stays.")
+        show = (
+            "show the tan by nodes of your own, and stay"
+            if len(others) > 1
+            else ("shows the tan by nodes of your own, and stays")
+        )
+        said.append(f"{names(others)} {show}.")
     return said

@@ -239,7 +239,8 @@ def _usable(blocks: list[bpy.types.Material], replacing: bool) -> list[bpy.types
     usable = [block for block in blocks if replacing or shaders(block)]
     plain = [block for block in blocks if not has_nodes(block)]
     if plain and not usable:
-        raise InputError(f"{names(plain)} has no nodes; turn on Use Nodes, or New Material.")
+        have = "have" if len(plain) > 1 else "has"
+        raise InputError(f"{names(plain)} {have} no nodes; turn on Use Nodes, or New Material.")
     if blocks and not usable:
         raise InputError(
             f"{names(blocks)} cannot be recoloured: no Principled BSDF or other shader with a "

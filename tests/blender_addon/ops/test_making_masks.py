@@ -176,7 +176,7 @@ def test_without_clothes_and_with_hidden_ones():
     garment.hide_viewport = False
     select(body, garment)
     garment.data.clear_geometry()
-    refused("'Band' have no faces")
+    refused("'Band' has no faces, so it covers nothing.")
     body.data.clear_geometry()
     refused("'Icosphere' has no faces")
     assert not body.data.attributes.get("Clothes Mask")

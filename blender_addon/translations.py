@@ -125,7 +125,7 @@ GERMAN = {
     "UV {index:g}, {hours:g} h": "UV {index:g}, {hours:g} h",
     "Sun {start:g}-{end:g} h": "Sonne {start:g}-{end:g} h",
     "{meter:.3g} SED: {hours:.1f} h of strong sun": "{meter:.3g} SED: {hours:.1f} h starke Sonne",
-    "tans like {tanning:.3g} SED (provisional)": "bräunt wie {tanning:.3g} SED (vorläufig)",
+    "tans like {tanning:.3g} SED": "bräunt wie {tanning:.3g} SED",
     "No tan that can be seen": "Keine sichtbare Bräune",
     "Darkest on day {darkest:.0f},": "Am dunkelsten an Tag {darkest:.0f},",
     "not half gone by day {last:.0f}": "an Tag {last:.0f} nicht halb fort",

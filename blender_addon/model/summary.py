@@ -84,5 +84,5 @@ def _of_dose(
     hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
     lines = [Line("{meter:.3g} SED: {hours:.1f} h of strong sun", meter=meter, hours=hours)]
     if exposure.unit == "SUN":
-        lines.append(Line("tans like {tanning:.3g} SED (provisional)", tanning=tanning))
+        lines.append(Line("tans like {tanning:.3g} SED", tanning=tanning))
     return tuple(lines)

@@ -20,8 +20,15 @@ from hylios.errors import InputError, require_range
 from hylios.readers.spectrum import read_irradiance, read_transmittance
 from hylios.readers.text import name_of
 from hylios.skin import Skin
-from hylios.spectra import Spectra
-from hylios.sun.action_spectra import FIRST_NM, LAST_NM, MELANOGENESIS, Absorptance
+from hylios.spectra import Spectra, published_spectra
+from hylios.sun.action_spectra import (
+    FIRST_NM,
+    LAST_NM,
+    MELANOGENESIS,
+    TANNING_ACTIONS,
+    USUAL_TANNING,
+    Absorptance,
+)
 from hylios.sun.doses import (
     Doses,
     joined,
@@ -58,8 +65,7 @@ SKY = {
 EXPOSURES = """\
 Exposures of all kinds can be given together, and every kind repeatedly. Hours count from the
 beginning. Doses in SED, in MMD or by UV index act as they are. Doses of the sun or of a spectrum
-are weighed by action spectra and the specimen's absorptance; the action spectrum of melanogenesis
-is PROVISIONAL. The sun shines from a clear sky on level skin.
+are weighed by action spectra and the specimen's absorptance. The sun shines on level skin.
 """
 
 
@@ -107,6 +113,13 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
         ("--sun", "DATE:FROM-TO", "hours of a day such as 2025-06-21:10-16:30; needs --latitude"),
     ):
         exposures.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
+    exposures.add_argument(
+        "--tanning-action",
+        choices=TANNING_ACTIONS,
+        help="by which action spectrum light tans: erythema (the usual: it tans as it burns) or "
+        "parrish (the thesis's, PROVISIONAL), nearer for lamps of UVA, and the usual where "
+        "melanogenesis_action is your own",
+    )
     sun = parser.add_argument_group("sun")
     sun.add_argument(
         "--start", metavar="DATE", help="day whose midnight is hour 0 (default: the first --sun)"
@@ -151,6 +164,7 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
         If one of them cannot be used.
     """
     over = _protection(arguments)
+    tanning = _tanning(arguments, of.model.spectra)
     parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in arguments.dose]
     parts += [of_uv_index(*_uv_index(text), over) for text in arguments.uv_index]
     _require_place(arguments)
@@ -159,15 +173,15 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
 
         absorptance = tabulated(of.skin.specimen, model=of.model)
         parts += [
-            of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra)
+            of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra, tanning)
             for text in arguments.spectrum
         ]
-        parts += _of_sun(arguments, absorptance, over, of.model.spectra)
+        parts += _of_sun(arguments, absorptance, over, of.model.spectra, tanning)
     doses = joined(parts)
     doses.exposures()  # whatever cannot be used is refused before anything is said
     if arguments.sun or arguments.spectrum:
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
-        note_estimates(of.model, light, (*SPECTRA, MELANOGENESIS))
+        note_estimates(of.model, light, (*SPECTRA, TANNING_ACTIONS[tanning]))
     return doses
 
 
@@ -183,8 +197,20 @@ def _require_place(arguments: argparse.Namespace) -> None:
         raise InputError("--utc-offset is given without --longitude.")
 
 
+def _tanning(arguments: argparse.Namespace, spectra: Spectra) -> str:
+    """Name of the action spectrum of tanning; a user's own one wants to be used."""
+    if arguments.tanning_action is not None:
+        return arguments.tanning_action
+    is_own = spectra[MELANOGENESIS] is not published_spectra()[MELANOGENESIS]
+    return "parrish" if is_own else USUAL_TANNING
+
+
 def _of_sun(
-    arguments: argparse.Namespace, absorptance: Absorptance, over: Protection, spectra: Spectra
+    arguments: argparse.Namespace,
+    absorptance: Absorptance,
+    over: Protection,
+    spectra: Spectra,
+    tanning: str,
 ) -> list[Doses]:
     """The doses of each `--sun`."""
     suns = [_sun(text) for text in arguments.sun]
@@ -206,6 +232,7 @@ def _of_sun(
             sky=sky,
             protection=over,
             spectra=spectra,
+            tanning=tanning,
         )
         for day, first, last in suns
     ]

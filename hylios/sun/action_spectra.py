@@ -2,8 +2,19 @@
 
 The thesis integrates the exposure over an action spectrum and the skin's absorptance (5.3, 5.19)
 and divides by the same for the minimal dose, given at 298 nm (5.2, 5.18). With minimal doses in
-SED that ratio is a dose in SED: the one of 298 nm light that does as much. The action spectrum of
-melanogenesis is PROVISIONAL (`hylios.spectra`), and so is every melanogenesis dose of a spectrum.
+SED that ratio is a dose in SED: the one of 298 nm light that does as much.
+
+How much of other light tans, two action spectra say (`TANNING_ACTIONS`):
+
+- `erythema`, the usual one: light tans as it burns. For the sun this follows from how minimal doses
+  were measured: under solar simulators and narrowband UVB, in SED, with the same ratio of MMD to
+  MED under both (Ravnbak et al., Photodermatol. 26, 133, 2010: 1.9 in light skin to 1). At 295 and
+  305 nm the two have one mechanism, in the UVA not (Photodermatol. 12, 1996, doi
+  10.1111/j.1600-0781.1996.tb00197.x).
+- `parrish`, the thesis's figure 3.4 after Parrish et al. 1982: it falls more slowly than erythema
+  beyond 298 nm, so that a June day counts three times what a meter shows. The curve that stands
+  here is PROVISIONAL, a rough shape. For lamps of UVA it is the nearer one: they tan from 18 J/cm^2
+  (PubMed 31206816), which are 10 SED by `parrish` and 1.6 by `erythema` if even from 320 to 400 nm.
 """
 
 from dataclasses import dataclass
@@ -26,6 +37,11 @@ LARGEST_EXPOSURE = 1e15
 """Largest exposure in J/m^2/nm: far beyond any real one, and its sums stay finite."""
 
 MELANOGENESIS, ERYTHEMA = "melanogenesis_action", "erythema_action"
+
+TANNING_ACTIONS = {"erythema": ERYTHEMA, "parrish": MELANOGENESIS}
+"""Names of what light does to melanin, and the spectra they stand for."""
+
+USUAL_TANNING = "erythema"
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,8 +110,9 @@ def melanogenesis_dose(
     exposure: ArrayLike,
     absorptance: Absorptance,
     spectra: Spectra | None = None,
+    tanning: str = USUAL_TANNING,
 ) -> NDArray[np.float64]:
-    """Dose in SED as it counts for melanin: 5.4 times the MMD. PROVISIONAL, as its action is.
+    """Dose in SED as it counts for melanin: 5.4 times the MMD.
 
     Parameters
     ----------
@@ -106,6 +123,8 @@ def melanogenesis_dose(
     absorptance : Absorptance
     spectra : mapping of str to Spectrum, optional
         Other action spectra.
+    tanning : str
+        `erythema` or `parrish`, of `TANNING_ACTIONS`.
 
     Returns
     -------
@@ -115,9 +134,14 @@ def melanogenesis_dose(
     ------
     InputError
         If the wavelengths do not ascend, the exposure is negative or not a number, or not 0 below
-        280 nm.
+        280 nm, or there is no such tanning.
     """
-    return _dose(MELANOGENESIS, wavelengths, exposure, absorptance, spectra)
+    if tanning not in TANNING_ACTIONS:
+        raise InputError(
+            f"action spectrum of tanning is {str(tanning)[:60]!r}; allowed are "
+            f"{' and '.join(TANNING_ACTIONS)}."
+        )
+    return _dose(TANNING_ACTIONS[tanning], wavelengths, exposure, absorptance, spectra)
 
 
 def thickening_dose(

@@ -15,6 +15,7 @@ from hylios.errors import InputError, as_numbers, require_range
 from hylios.spectra import Spectra
 from hylios.sun.action_spectra import (
     SED,
+    USUAL_TANNING,
     Absorptance,
     erythemal_dose,
     melanogenesis_dose,
@@ -122,6 +123,7 @@ def of_spectrum(
     absorptance: Absorptance,
     protection: Protection = BARE,
     spectra: Spectra | None = None,
+    tanning: str = USUAL_TANNING,
 ) -> Doses:
     """Time under light of a spectrum (5.1 to 5.4, 5.17 to 5.20).
 
@@ -137,6 +139,9 @@ def of_spectrum(
         Of the skin.
     spectra : mapping of str to Spectrum, optional
         Other action spectra.
+    tanning : str
+        How light counts for melanin, of `hylios.sun.action_spectra.TANNING_ACTIONS`: `erythema`,
+        or `parrish` for a lamp of UVA.
 
     Raises
     ------
@@ -147,7 +152,7 @@ def of_spectrum(
     hours, shares = _spread(hour, seconds / 3600.0)
     with np.errstate(over="ignore", invalid="ignore"):  # what is too large is refused below
         exposure = 3600.0 * shares[:, None] * as_numbers("values of a spectral dose", irradiance)
-    return _of_light(hours, wavelengths, exposure, absorptance, protection, spectra)
+    return _of_light(hours, wavelengths, exposure, absorptance, protection, spectra, tanning)
 
 
 def of_sun(
@@ -163,6 +168,7 @@ def of_sun(
     sky: ClearSky | None = None,
     protection: Protection = BARE,
     spectra: Spectra | None = None,
+    tanning: str = USUAL_TANNING,
 ) -> Doses:
     """Hours of a day under a clear sky, one dose for each (5.1 to 5.4, 5.17 to 5.20).
 
@@ -173,7 +179,7 @@ def of_sun(
         Hours of the day, 0 to 24: local solar time, or a clock's where a longitude is given.
     latitude, longitude, utc_offset
         As in `hylios.sun.position.sun`.
-    absorptance, protection, spectra
+    absorptance, protection, spectra, tanning
         As in `of_spectrum`.
     start : date, optional
         The day whose midnight is hour 0; `day` by default.
@@ -193,7 +199,7 @@ def of_sun(
     >>> absorptance = hylios.ultraviolet_absorptance(hylios.specimen("S3"))
     >>> sun = hylios.sun_doses(date(2025, 6, 21), 10, 16, 40.0, absorptance)
     >>> print(f"{sun.erythemal.sum():.0f} SED, counts as {sun.melanogenesis.sum():.0f}")
-    43 SED, counts as 136
+    43 SED, counts as 42
     """
     for hour in (first, last):
         require_range("hour of sun", hour, 0.0, 24.0)
@@ -209,10 +215,12 @@ def of_sun(
     light = sunlight(place.zenith, sky or ClearSky(), place.distance)
     exposure = 3600.0 * lengths[:, None] * light.level.mean(axis=1)
     hours = 24.0 * (day - start).days + np.floor(edges[:-1])
-    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra)
+    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra, tanning)
 
 
-def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection, spectra) -> Doses:
+def _of_light(
+    hours, wavelengths, exposure, absorptance, protection: Protection, spectra, tanning: str
+) -> Doses:
     """Doses of radiant exposures (E, W), J/m^2/nm."""
     if not isinstance(absorptance, Absorptance):
         raise InputError(
@@ -224,7 +232,7 @@ def _of_light(hours, wavelengths, exposure, absorptance, protection: Protection,
     return Doses(
         hours,
         erythemal_dose(grid, received, spectra),
-        melanogenesis_dose(grid, received, absorptance, spectra),
+        melanogenesis_dose(grid, received, absorptance, spectra, tanning),
         thickening_dose(grid, received, absorptance, spectra),
     )
 

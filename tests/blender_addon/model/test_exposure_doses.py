@@ -51,7 +51,7 @@ def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
     expected = of_sun(date(doses.ANY_YEAR, 7, 15), 11.0, 13.5, 40.0, skin)
     assert sun.hours.tolist() == [72 + 11, 72 + 12, 72 + 13]
     assert np.array_equal(sun.melanogenesis, expected.melanogenesis)
-    assert np.all(sun.melanogenesis > sun.erythemal)
+    assert sun.melanogenesis == pytest.approx(sun.erythemal, rel=0.1)
     assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * sun.erythemal)
 
 

@@ -138,7 +138,7 @@ def test_a_region_says_where_it_lies(table_path):
     [
         ("MMD", "2 tanning doses", "9.8 SED: 1.4 h of strong sun"),
         ("UV_INDEX", "UV 8, 2 h", "14.4 SED: 2.0 h of strong sun"),
-        ("SUN", "Sun 11-15 h", "29.3 SED: 4.1 h of strong sun"),
+        ("SUN", "Sun 11-15 h", "30.4 SED: 4.2 h of strong sun"),
     ],
 )
 def test_every_unit_says_what_reaches_the_skin(table_path, unit, line, label):
@@ -165,10 +165,10 @@ def test_a_multiple_is_of_the_dose_that_is_set_by_hand(table_path):
     assert "14.4 SED: 2.0 h of strong sun" in drawn()
 
 
-def test_the_sun_says_that_its_dose_is_provisional(table_path):
+def test_the_sun_says_what_its_dose_tans_like(table_path):
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].unit = "SUN"
-    assert any("SED (provisional)" in label for label in drawn())
+    assert any(label.startswith("tans like ") for label in drawn())
 
 
 def test_a_new_object_says_what_to_do():

@@ -39,7 +39,8 @@ def test_doses_of_all_kinds_together(capsys, tmp_path):
     lamp.write_text("wavelength_nm,irradiance_w_m2_nm\n297,0\n298,1\n299,0\n")
     rows, notes = run(
         f"dose --mmd 4 --med 2 --dose 90:30 --dose 0:6SED --dose 24:2.5mmd --uv-index 5:10:1 "
-        f"--spectrum 6:{lamp}:200 --sun 2025-06-22:10-11:30 --sun 2025-06-21:12-13 --latitude 40",
+        f"--tanning-action parrish --spectrum 6:{lamp}:200 --sun 2025-06-22:10-11:30 "
+        "--sun 2025-06-21:12-13 --latitude 40",
         capsys,
     )
     assert [int(row["hour"]) for row in rows] == [0, 5, 6, 12, 24, 34, 35, 90]
@@ -67,6 +68,19 @@ def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
     (row,), notes = run(command + str(own), capsys)
     assert row["melanogenesis_sed"] == row["thickening_sed"]
     assert "PROVISIONAL" not in notes
+
+
+def test_light_tans_as_it_burns_or_by_the_theses_spectrum(capsys):
+    """An hour at noon in June: the usual one as a meter shows it, nothing provisional; the other
+    three times that."""
+    command = "dose --sun 2025-06-21:12-13 --latitude 40"
+    (row,), notes = run(command, capsys)
+    assert row["melanogenesis_sed"] == row["thickening_sed"]
+    assert "PROVISIONAL" not in notes
+    (other,), notes = run(f"{command} --tanning-action parrish", capsys)
+    assert 2.5 < float(other["melanogenesis_sed"]) / float(row["erythemal_sed"]) < 3.5
+    assert "PROVISIONAL" in notes
+    assert other["thickening_sed"] == row["thickening_sed"]
 
 
 def test_a_clock_and_a_start(capsys):

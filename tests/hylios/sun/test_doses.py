@@ -56,13 +56,18 @@ def test_a_step_of_six_nanometres_changes_doses_of_the_sun_by_less_than_a_thousa
         tabulated(SPECIMENS["S3"], step_nm=0.0)
 
 
-@pytest.mark.parametrize("dose", [melanogenesis_dose, thickening_dose])
+def by_parrish(*light):
+    return melanogenesis_dose(*light, tanning="parrish")
+
+
+@pytest.mark.parametrize("dose", [melanogenesis_dose, by_parrish, thickening_dose])
 def test_a_joule_of_298_nm_is_a_hundredth_sed(dose):
     assert dose(NM, line(298.0), SKIN) == pytest.approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("dose", "name"), [(melanogenesis_dose, MELANOGENESIS), (thickening_dose, ERYTHEMA)]
+    ("dose", "name"),
+    [(by_parrish, MELANOGENESIS), (melanogenesis_dose, ERYTHEMA), (thickening_dose, ERYTHEMA)],
 )
 @pytest.mark.parametrize("nanometres", [285.0, 311.0, 365.0])
 def test_other_lines_count_by_action_and_absorptance(dose, name, nanometres):
@@ -182,7 +187,7 @@ def test_protection_weighs_each_wavelength():
 
 
 def test_melanin_and_thickness_are_given_their_own_doses():
-    doses = of_spectrum(0, NM, line(365.0), 60.0, SKIN)
+    doses = of_spectrum(0, NM, line(365.0), 60.0, SKIN, tanning="parrish")
     assert doses.melanogenesis[0] > 2.0 * doses.thickening[0] > 0.0
     given = doses.exposures()
     assert np.array_equal(given.doses, doses.melanogenesis)
@@ -216,6 +221,30 @@ def test_no_sun_no_dose():
     assert night.hours.size == 24
     assert np.all(every(night) == 0.0)
     assert np.all(every(of_sun(SUMMER, 0.0, 4.0, 40.0, SKIN)) == 0.0)
+
+
+def test_a_day_of_sun_tans_as_the_meter_says():
+    """As minimal doses are, in SED of solar simulators: within 10 %, by what skin absorbs; by the
+    thesis's spectrum three to four times that."""
+    for day, most in ((SUMMER, 3.5), (date(2025, 12, 21), 4.5)):
+        doses = of_sun(day, 10.0, 14.0, 40.0, SKIN)
+        assert 0.9 < doses.melanogenesis.sum() / doses.erythemal.sum() < 1.0
+        other = of_sun(day, 10.0, 14.0, 40.0, SKIN, tanning="parrish")
+        assert 2.8 < other.melanogenesis.sum() / doses.erythemal.sum() < most
+        assert np.array_equal(other.thickening, doses.thickening)
+
+
+def test_lamps_of_uva_tan_by_the_theses_spectrum():
+    """18 J/cm^2 of broad UVA just tan people of types III and up, whose MMD is about 6 SED."""
+    light = NM[NM >= 320.0], np.full(81, 18e4 / 80.0)
+    alike = Absorptance([280.0, 400.0], [1.0, 1.0])
+    assert melanogenesis_dose(*light, alike, tanning="parrish") == pytest.approx(10.1, abs=0.1)
+    assert melanogenesis_dose(*light, alike) == pytest.approx(1.6, abs=0.1)
+
+
+def test_a_tanning_that_there_is_not_is_named():
+    with pytest.raises(InputError, match="tanning is 'sunlamp'; allowed are erythema and parrish"):
+        melanogenesis_dose(NM, line(298.0), SKIN, tanning="sunlamp")
 
 
 def test_december_in_the_south_is_stronger_than_june_in_the_north():

@@ -1,6 +1,6 @@
 """Apply: from an object's settings to images, node group, material and keys."""
 
-from typing import cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
@@ -105,8 +105,10 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         return " ".join(said)
 
 
-def list_materials(obj: bpy.types.Object | None) -> None:
+def list_materials(obj: bpy.types.Object | None) -> str:
     """Write into an object's settings which of its materials tan: as ticked, or else a guess.
+
+    Returns a sentence on it.
 
     Raises
     ------
@@ -114,8 +116,11 @@ def list_materials(obj: bpy.types.Object | None) -> None:
         If the object cannot carry a tan.
     """
     obj = tannable(obj)
+    ticked = slots.ticks(obj, skins.group_of(obj))
     with Changes() as changes:
-        slots.remember(obj, slots.ticks(obj, skins.group_of(obj)), changes)
+        slots.remember(obj, ticked, changes)
+    skin = [material for material, tans in ticked.items() if tans]
+    return f"Ticked as skin: {names(skin)}." if skin else "No material is ticked as skin."
 
 
 def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
@@ -137,8 +142,14 @@ def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:
     if obj is None:
         raise InputError("No object is active; select a mesh object.")
     if obj.type != "MESH":
-        raise InputError(f"{obj.name!r} is of type {obj.type}; select a mesh object.")
+        raise InputError(f"{obj.name!r} is of type {kind_of(obj)}; select a mesh object.")
     return obj
+
+
+def kind_of(obj: bpy.types.Object) -> str:
+    """What an object is, as Blender's menus call it."""
+    kinds: Any = obj.bl_rna.properties["type"]
+    return kinds.enum_items[obj.type].name
 
 
 def timeable(obj: bpy.types.Object | None) -> bpy.types.Object:

@@ -43,16 +43,22 @@ def active_mesh(context: bpy.types.Context) -> bpy.types.Object | None:
     return obj if obj is not None and obj.type == "MESH" else None
 
 
+def has_mesh(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether the active object is a mesh; a poll of `cls` says so where it is not."""
+    if active_mesh(context) is None:
+        cls.poll_message_set("Select a mesh object")
+        return False
+    return True
+
+
 def can_edit(cls: Any, context: bpy.types.Context) -> bool:
     """Whether the settings of the active mesh can be changed; a poll of `cls` says why not."""
-    obj = active_mesh(context)
-    if obj is None:
-        cls.poll_message_set("Select a mesh object")
-    elif obj.library is not None:
+    if not has_mesh(cls, context):
+        return False
+    if cast(bpy.types.Object, active_mesh(context)).library is not None:
         cls.poll_message_set("The object is linked from another file: make it local or override it")
-    else:
-        return True
-    return False
+        return False
+    return True
 
 
 def active_settings(context: bpy.types.Context) -> SkinTanSettings:

@@ -13,8 +13,21 @@ from ..apply import tannable
 from ..model.exposures_csv import exposures_text, read_exposures
 from ..model.schedule import csv_text
 from ..props import settings_of
-from .active import active_mesh, active_object, active_settings, can_edit
+from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
 from .reports import finished
+
+
+def _path_of(operator: Any) -> Path:
+    """The file that an operator is given.
+
+    Raises
+    ------
+    InputError
+        If it is given none.
+    """
+    if not operator.filepath:
+        raise InputError("No file is chosen; choose a CSV file.")
+    return Path(bpy.path.abspath(operator.filepath))
 
 
 class _SavesCsv(ExportHelper):
@@ -25,13 +38,13 @@ class _SavesCsv(ExportHelper):
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def execute(self, context):
-        path = Path(bpy.path.abspath(cast(Any, self).filepath))
-        return finished(self, lambda: self._save(context, path))
+        return finished(self, lambda: self._save(context))
 
-    def _save(self, context: bpy.types.Context, path: Path) -> str:
+    def _save(self, context: bpy.types.Context) -> str:
+        path = _path_of(self)
         obj = self.subject(context)
         require_target(path, (".csv",), replacing=True)
         text = self.text(obj)
@@ -89,10 +102,9 @@ class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N
         return can_edit(cls, context)
 
     def execute(self, context):
-        path = Path(bpy.path.abspath(cast(Any, self).filepath))
         settings = active_settings(context)
         try:
-            read = read_exposures(path)
+            read = read_exposures(_path_of(self))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

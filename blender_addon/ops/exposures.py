@@ -12,7 +12,11 @@ from .lists import SELECTED, after_removing, index_of
 
 
 def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
-    return can_edit(cls, context) and len(active_settings(context).exposures) > 0
+    """Whether there is a time in the sun; a poll of `cls` says so where there is none."""
+    if can_edit(cls, context) and not active_settings(context).exposures:
+        cls.poll_message_set("The object has no time in the sun: add one with +")
+        return False
+    return can_edit(cls, context)
 
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
@@ -54,6 +58,8 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
         if self.properties.is_property_set("dose"):
             added.unit, added.dose = "SED", self.dose
         settings.exposure_index = len(settings.exposures) - 1
+        like = "" if latest is None else ", with what is set of the last one"
+        self.report({"INFO"}, f"Added a time in the sun on day {added.day:g}{like}.")
         return {"FINISHED"}
 
 

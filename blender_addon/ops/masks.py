@@ -9,10 +9,10 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 
 from hylios.errors import InputError
 
-from ..apply import tannable
+from ..apply import kind_of, tannable
 from ..masking import ClothesRequest, from_clothes, mask_for_brush
 from ..props import SkinTanMask, SkinTanRegion, settings_of
-from .active import active_mesh, active_object, current_scene, selected_meshes
+from .active import active_object, current_scene, has_mesh, selected_meshes
 
 STEP_SECONDS = 0.05
 """So long From Clothes computes before it looks for Esc."""
@@ -112,7 +112,7 @@ class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def execute(self, context):
         try:
@@ -206,7 +206,7 @@ class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def invoke(self, context, event):
         del event
@@ -284,5 +284,5 @@ def _object(name: str) -> bpy.types.Object:
     if obj is None:
         raise InputError(f"There is no object {name!r}; garments are names of objects.")
     if obj.type != "MESH":
-        raise InputError(f"{name!r} is of type {obj.type}; a garment is a mesh object.")
+        raise InputError(f"{name!r} is of type {kind_of(obj)}; a garment is a mesh object.")
     return obj

@@ -1,11 +1,12 @@
 """The button that lists an object's materials, skin ticked."""
 
+from typing import Any, cast
+
 import bpy
 
-from hylios.errors import InputError
-
 from ..apply import list_materials
-from .active import active_mesh, active_object
+from .active import active_mesh, active_object, has_mesh
+from .reports import finished
 
 
 class SKIN_TAN_OT_list_materials(bpy.types.Operator):  # noqa: N801
@@ -18,13 +19,12 @@ class SKIN_TAN_OT_list_materials(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        obj = active_mesh(context)
-        return obj is not None and any(slot.material for slot in obj.material_slots)
+        if not has_mesh(cls, context):
+            return False
+        if not any(slot.material for slot in cast(Any, active_mesh(context)).material_slots):
+            cls.poll_message_set("The object has no material: Apply Tan makes a skin")
+            return False
+        return True
 
     def execute(self, context):
-        try:
-            list_materials(active_object(context))
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+        return finished(self, lambda: list_materials(active_object(context)))

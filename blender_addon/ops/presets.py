@@ -9,7 +9,7 @@ from bl_operators.presets import AddPresetBase
 from hylios.files import written_beside
 
 from ..props.presets import SCHEDULE, SKIN, preset_text
-from .active import active_mesh, active_settings
+from .active import active_settings, has_mesh
 
 
 class _SkinTanPreset(AddPresetBase):
@@ -19,7 +19,7 @@ class _SkinTanPreset(AddPresetBase):
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def add(self, context: Any, filepath: str) -> None:
         text = preset_text(cast(Any, active_settings(context)), self.preset_names)

@@ -55,7 +55,10 @@ class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return can_edit(cls, context) and len(active_settings(context).regions) > 0
+        if can_edit(cls, context) and not active_settings(context).regions:
+            cls.poll_message_set("The object has no region of the skin: add one with +")
+            return False
+        return can_edit(cls, context)
 
     def execute(self, context):
         settings = active_settings(context)

@@ -1,10 +1,12 @@
 """The button that takes a tan off."""
 
+from typing import cast
+
 import bpy
 from bpy.props import BoolProperty
 
 from ..removal import has_tan, remove_tan
-from .active import active_mesh, active_object
+from .active import active_mesh, active_object, has_mesh
 from .reports import finished
 
 
@@ -24,8 +26,9 @@ class SKIN_TAN_OT_remove(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        obj = active_mesh(context)
-        if obj is None or not has_tan(obj):
+        if not has_mesh(cls, context):
+            return False
+        if not has_tan(cast(bpy.types.Object, active_mesh(context))):
             cls.poll_message_set("The active object has no tan")
             return False
         return True

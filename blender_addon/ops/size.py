@@ -7,7 +7,7 @@ from bpy.props import FloatProperty
 
 from ..model.settings import LARGEST_SCALE
 from ..size import fit_size
-from .active import active_mesh, active_object, current_scene
+from .active import active_object, current_scene, has_mesh
 from .reports import finished
 
 
@@ -30,7 +30,7 @@ class SKIN_TAN_OT_fit_size(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def execute(self, context):
         scale = cast(Any, self).model_scale

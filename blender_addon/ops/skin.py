@@ -44,6 +44,7 @@ class SKIN_TAN_OT_choose_type(bpy.types.Operator):  # noqa: N801
             self.report({"ERROR"}, f"This add-on comes without type {self.type}; install it anew.")
             return {"CANCELLED"}
         settings.biology.reset()
+        self.report({"INFO"}, f"The skin is of type {self.type}, with the biology of its own.")
         return {"FINISHED"}
 
 
@@ -121,6 +122,7 @@ class SKIN_TAN_OT_reset_biology(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         active_settings(context).biology.reset()
+        self.report({"INFO"}, "Melanin, blood, oxygen and thickness are those of the skin type.")
         return {"FINISHED"}
 
 

@@ -4,7 +4,7 @@ import bpy
 
 from .. import timing
 from ..apply import timeable
-from .active import active_mesh, active_object, current_scene
+from .active import active_object, current_scene, has_mesh
 from .reports import finished
 
 
@@ -16,7 +16,7 @@ class SKIN_TAN_OT_reset_timing(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def execute(self, context):
         return finished(
@@ -32,7 +32,7 @@ class SKIN_TAN_OT_go_to_darkest_day(bpy.types.Operator):  # noqa: N801
 
     @classmethod
     def poll(cls, context):
-        return active_mesh(context) is not None
+        return has_mesh(cls, context)
 
     def execute(self, context):
         return finished(

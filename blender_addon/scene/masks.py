@@ -238,10 +238,18 @@ def _require_attribute(source: Source) -> None:
             "rename the attribute."
         )
     if source.data_type not in TYPES or source.domain not in DOMAINS:
+        kind, domain = (_words(name, getattr(source, name)) for name in ("data_type", "domain"))
         raise InputError(
-            f"Attribute {source.name!r} is of type {source.data_type} on domain {source.domain}; "
-            f"allowed are {', '.join(TYPES)} on {', '.join(DOMAINS)}."
+            f"The attribute {source.name!r} cannot be a mask: it is of type {kind} on {domain}; "
+            "allowed are numbers, whole numbers, yes or no, and colours, of points, corners or "
+            "faces."
         )
+
+
+def _words(name: str, value: str) -> str:
+    """What a property of an attribute is called in Blender's menus."""
+    items: Any = bpy.types.Attribute.bl_rna.properties[name]
+    return items.enum_items[value].name
 
 
 def _is_offered(attribute: bpy.types.Attribute) -> bool:

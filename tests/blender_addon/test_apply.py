@@ -182,7 +182,7 @@ def test_no_object():
 
 def test_not_a_mesh():
     bpy.ops.object.empty_add()
-    refused("'Empty' is of type EMPTY; select a mesh object")
+    refused("'Empty' is of type Empty; select a mesh object")
 
 
 def linked_body(tmp_path):
@@ -270,11 +270,19 @@ def test_missing_mask(body):
     refused("The mesh has no 'shade' any more, which is its mask; allowed are: sun.")
 
 
-@pytest.mark.parametrize(("kind", "domain"), [("FLOAT_VECTOR", "POINT"), ("FLOAT", "EDGE")])
-def test_mask_of_another_kind(body, kind, domain):
+@pytest.mark.parametrize(
+    ("kind", "domain", "words"),
+    [
+        ("FLOAT_VECTOR", "POINT", "Vector on Point"),
+        ("FLOAT", "EDGE", "Float on Edge"),
+        ("FLOAT2", "CORNER", "2D Vector on Face Corner"),
+    ],
+)
+def test_mask_of_another_kind(body, kind, domain, words):
     body.data.attributes.new("shade", kind, domain)
     body.skin_tan.mask_attribute = "shade"
-    refused(f"'shade' is of type {kind} on domain {domain}; allowed are FLOAT, FLOAT_COLOR")
+
+    refused(f"The attribute 'shade' cannot be a mask: it is of type {words}; allowed are numbers,")
 
 
 def test_days_and_frames_out_of_order(body):

@@ -1,6 +1,7 @@
 """What a table, doses and days lead to, as images."""
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -60,7 +61,7 @@ def settings(path, **changes):
 
 
 def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
-    """Sun counts more for melanin; only the days between the first and the last are simulated."""
+    """Sun by a spectrum that counts more for melanin; only the days that are seen are simulated."""
     arguments = {}
 
     def recorded(exposures, dynamics, **more):
@@ -68,7 +69,10 @@ def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
         return retained(exposures, dynamics, **more)
 
     monkeypatch.setattr(history, "retained", recorded)
+    monkeypatch.setattr(doses, "of_sun", partial(doses.of_sun, tanning="parrish"))
     values = settings(table_path, own_doses=own_minimal_doses(6.0, 4.0))
+    (exposure,) = values.exposures
+    values = replace(values, exposures=(replace(exposure, latitude=41.25),))  # of no other test
     told = tan_of(values).history
     assert (arguments["mmd"], arguments["med"]) == (6.0, 4.0)
     assert (told.first_day, told.last_day, arguments["hours"]) == (3.0, 10.0, 240)

@@ -49,14 +49,23 @@ def notice(scene: bpy.types.Scene, depsgraph: Any) -> None:
 
 @persistent
 def after_undo(*_: Any) -> None:
-    """Handler: pixels are those of the settings to which an undo or a redo has led."""
+    """Handler: pixels are those of the settings to which an undo or a redo has led.
+
+    Without a window no change had shown before Apply, so they are those of the last one.
+    """
     scene = _scene()
     for obj in scene.objects:
         settings = settings_of(obj)
-        if settings.group is not None and settings.live and settings.applied:
+        if not (settings.group and settings.live and settings.applied):
+            continue
+        if timers.are_called():
             text = applied.text_of(obj, scene)
             _restore_look(obj, text)
             _restore(obj, text)
+        else:
+            look = nodes.own_look(settings.group) or {}
+            for image in {*(nodes.own_history(settings.group) or ()), *look.values()}:
+                images.show_packed(image)
     timers.wait(make_exact, REST_SECONDS)
 
 

@@ -8,9 +8,14 @@ Timer = Callable[[], float | None]
 """What Blender calls: it returns the seconds until the next call, or None."""
 
 
+def are_called() -> bool:
+    """Whether there is a window: without one Blender calls no timers."""
+    return not bpy.app.background
+
+
 def wait(timer: Timer, seconds: float) -> None:
-    """Have a timer called in so many seconds, not before; without a window nothing calls it."""
-    if not bpy.app.background:
+    """Have a timer called in so many seconds, not before, where there is a window."""
+    if are_called():
         forget(timer)
         bpy.app.timers.register(timer, first_interval=seconds)
 

@@ -129,8 +129,15 @@ def restore(image: bpy.types.Image, content: str) -> bool:
     """Have an image show what it holds after an undo, if that comes from `content`."""
     if image.get(LASTING) != content:
         return False
-    image.reload()
+    show_packed(image)
     return True
+
+
+def show_packed(image: bpy.types.Image) -> None:
+    """Have an image show what its packed file holds."""
+    image.reload()
+    if LASTING in image:
+        image[SHOWN] = image[LASTING]
 
 
 def shared_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:

@@ -9,6 +9,7 @@ import pytest
 from scenes import apply, look, of_role, pixels, tan_object
 
 from blender_addon import applied, live
+from blender_addon.model import catalogue
 from blender_addon.model.tan import history_of
 
 
@@ -140,3 +141,31 @@ def test_a_file_of_an_earlier_version_waits_for_apply(body):
     body.skin_tan.exposures[0].dose = 3.0
     live.show_changes()
     assert look(body) == before and not stale()
+
+
+@pytest.mark.parametrize("name", ["dose", pytest.param("blood", marks=pytest.mark.slow)])
+def test_without_a_window_undo_leads_back_to_the_picture_that_was(name):
+    apply(tan_object(catalogue.shipped_path("III")))
+    bpy.ops.ed.undo_push(message="applied")
+    pictures = [look(bpy.data.objects["Body"])]
+
+    def change() -> None:
+        settings = bpy.data.objects["Body"].skin_tan
+        if name == "dose":
+            settings.exposures[0].dose = 9.0
+        else:
+            settings.biology.blood = 1.5
+
+    for message, act in (("changed", change), ("applied again", apply)):
+        act()
+        bpy.ops.ed.undo_push(message=message)
+        pictures.append(look(bpy.data.objects["Body"]))
+    assert pictures[0] == pictures[1] != pictures[2]
+    for act, picture in zip(
+        (bpy.ops.ed.undo, bpy.ops.ed.undo, bpy.ops.ed.redo, bpy.ops.ed.redo),
+        (1, 0, 1, 2),
+        strict=True,
+    ):
+        act()
+        assert look(bpy.data.objects["Body"]) == pictures[picture]
+        assert stale() == (picture == 1)

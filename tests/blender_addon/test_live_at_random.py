@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scenes import apply, of_role, pixels, tan_object
 
-from blender_addon import applied, live
+from blender_addon import applied, live, timers
 from blender_addon.model import catalogue
 from blender_addon.model.tan import history_of, look_of
 
@@ -98,7 +98,9 @@ def run(seed: int, folder, steps: int) -> None:
 
 
 @pytest.fixture
-def tanned():
+def tanned(monkeypatch):
+    """A body with a tan, as in a window, where undo finds what Live had shown."""
+    monkeypatch.setattr(timers, "are_called", lambda: True)
     apply(tan_object(catalogue.shipped_path("III")))
     bpy.ops.ed.undo_push(message="applied")
 

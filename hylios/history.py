@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from hylios.errors import InputError, require_range
 from hylios.readers.quantities import Quantity
 from hylios.readers.table import read_table
-from hylios.tanning import LARGEST_DOSE, LONGEST_HOURS, Exposures, MelaninDynamics, states_at
+from hylios.tanning import LARGEST_DOSE, LONGEST_HOURS, Exposures, Kinetics, states_at
 
 SHARES = 512
 """Shares of the dose, from none to all. The response jumps where the dose passes the MMD and then
@@ -64,7 +64,7 @@ class ShareHistory:
 
 def history_of_shares(
     exposures: Exposures,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     hours: ArrayLike,
     mmd: float,

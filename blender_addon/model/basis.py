@@ -28,7 +28,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.sun.doses import Doses
-from hylios.tanning import Exposures, MelaninDynamics
+from hylios.tanning import Exposures, Kinetics
 from hylios.tanning.shares import Energies, retained, states_of_shares
 
 from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
@@ -131,7 +131,7 @@ def shown(basis: Basis, coefficients: NDArray, days: NDArray) -> NDArray[np.floa
 def basis(
     received: Sequence[Doses],
     shares: ArrayLike,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     mmd: float,
     med: float,

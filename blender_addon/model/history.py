@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.sun.doses import Doses
-from hylios.tanning import Exposures, MelaninDynamics
+from hylios.tanning import Exposures, Kinetics
 from hylios.tanning.shares import Energies, responses_of_shares, retained, states_of_shares
 
 from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
@@ -106,7 +106,7 @@ class History:
 
 def history(
     received: Doses,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     mmd: float,
     med: float,

@@ -16,7 +16,7 @@ from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
 from hylios.skin.specimen import Specimen, parameters, with_values
 from hylios.skin.specimen_file import read_specimen
 from hylios.spectra import estimates_within, published_spectra, with_own_spectrum
-from hylios.tanning import PIGMENTATIONS
+from hylios.tanning import KINETICS, PIGMENTATIONS
 from hylios.tissue import SPECTRA, Model
 
 MOST_WAVELENGTHS = 10_000
@@ -186,6 +186,17 @@ def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_kinetics_argument(parser: argparse.ArgumentParser) -> None:
+    """Add `--kinetics`, which `chosen_tanning_skin` reads where it is there."""
+    parser.add_argument(
+        "--kinetics",
+        choices=list(KINETICS),
+        default="thesis",
+        help="how melanin follows the sun: by the thesis, or as measured in people, where tans add "
+        "up, are graded and last for months (default: thesis)",
+    )
+
+
 def add_work_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of every simulation, which `require_work` checks."""
     parser.add_argument("--seed", type=int, default=1, help="seed of random numbers (default: 1)")
@@ -252,7 +263,13 @@ def chosen_tanning_skin(arguments: argparse.Namespace, untanned: str = "steady_s
         usual = phototype(specimen.name)
         pigmentation, rates = usual.skin.pigmentation, {**usual.tanning, **rates}
     return Skin.of(
-        specimen, pigmentation, arguments.mmd, arguments.med, tanning=rates, untanned=untanned
+        specimen,
+        pigmentation,
+        arguments.mmd,
+        arguments.med,
+        tanning=rates,
+        untanned=untanned,
+        kinetics=getattr(arguments, "kinetics", "thesis"),
     )
 
 

@@ -9,7 +9,7 @@ from hylios.commands.dose_arguments import (
     chosen_doses,
     skin_in_light,
 )
-from hylios.commands.shell import number, print_rows
+from hylios.commands.shell import add_kinetics_argument, number, print_rows
 from hylios.commands.streams import progress
 from hylios.tanning import simulate_in_parts
 
@@ -21,6 +21,7 @@ def add_to(commands) -> None:
     parser = commands.add_parser("tan", help="melanin and thickness of the epidermis over time")
     parser.set_defaults(command=run)
     add_skin_in_light_arguments(parser)
+    add_kinetics_argument(parser)
     add_exposure_arguments(parser)
     parser.add_argument("--hours", type=int, default=720, help="last hour (default: 720)")
     parser.add_argument(
@@ -36,7 +37,7 @@ def run(arguments: argparse.Namespace) -> None:
     step = _step(arguments.step)
     parts = simulate_in_parts(
         chosen_doses(arguments, of).exposures(),
-        of.skin.dynamics,
+        of.skin.melanin_kinetics,
         mmd=of.skin.mmd,
         med=of.skin.med,
         hours=arguments.hours,

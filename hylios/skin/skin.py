@@ -10,10 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
+from hylios.skin.kinetics import measured_dynamics
 from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, require_specimen, tanned
 from hylios.tanning import (
+    KINETICS,
     PIGMENTATIONS,
     Exposures,
+    Kinetics,
     MelaninDynamics,
     TanningHistory,
     minimal_erythema_dose,
@@ -58,6 +61,8 @@ class Skin:
         The set's, or a variation of it.
     untanned : str
         One of `UNTANNED`: which skin the state without sun is.
+    kinetics : str
+        One of `KINETICS`: how melanin follows the sun, "thesis" or "measured".
 
     Examples
     --------
@@ -76,6 +81,7 @@ class Skin:
     med: float
     dynamics: MelaninDynamics
     untanned: str = "steady_state"
+    kinetics: str = "thesis"
 
     def __post_init__(self):
         if self.pigmentation not in PIGMENTATIONS:
@@ -86,6 +92,8 @@ class Skin:
             raise InputError(
                 f"the untanned skin is {self.untanned!r}; allowed is {', '.join(UNTANNED)}."
             )
+        if self.kinetics not in KINETICS:
+            raise InputError(f"kinetics are {self.kinetics!r}; allowed is {', '.join(KINETICS)}.")
         require_range("MMD", self.mmd, 0.01, 1000.0, "SED")
         require_range("MED", self.med, 0.01, 1000.0, "SED")
 
@@ -99,6 +107,7 @@ class Skin:
         *,
         tanning: Mapping[str, float] | None = None,
         untanned: str = "steady_state",
+        kinetics: str = "thesis",
     ) -> "Skin":
         """A skin, with what is not given from table 6.1's caption and equations 3.1 and 3.2.
 
@@ -114,8 +123,8 @@ class Skin:
         Raises
         ------
         InputError
-            If that is no specimen, a minimal dose is out of range, there is no such tanning set, or
-            a change to it or the untanned state cannot be used.
+            If that is no specimen, a minimal dose is out of range, there is no such tanning set or
+            kinetics, or a change to it or the untanned state cannot be used.
         """
         require_specimen(specimen)
         level = min(max(specimen.pigmentation, LEAST_PIGMENTATION), MOST_PIGMENTATION)
@@ -131,7 +140,18 @@ class Skin:
             med=minimal_erythema_dose(level) if med is None else med,
             dynamics=varied(PIGMENTATIONS[pigmentation], tanning or {}),
             untanned=untanned,
+            kinetics=kinetics,
         )
+
+    @property
+    def melanin_kinetics(self) -> Kinetics:
+        """What melanin follows: `dynamics`, or by measured kinetics `measured_dynamics` of it.
+
+        What simulates a skin takes this (`hylios.tanning`, `hylios.history`).
+        """
+        if self.kinetics == "thesis":
+            return self.dynamics
+        return measured_dynamics(self.specimen, self.dynamics, self.pigmentation)
 
     @property
     def untanned_melanin(self) -> NDArray[np.float64]:
@@ -178,7 +198,7 @@ class Skin:
         Parameters and errors as in `hylios.tanning.states_at`.
         """
         return states_at(
-            exposures, self.dynamics, times=times, mmd=self.mmd, med=self.med, step=step
+            exposures, self.melanin_kinetics, times=times, mmd=self.mmd, med=self.med, step=step
         )
 
     def history(self, exposures: Exposures, hours: int, *, step: float = 1) -> TanningHistory:
@@ -187,7 +207,12 @@ class Skin:
         Parameters and errors as in `hylios.tanning.simulate`.
         """
         return simulate(
-            exposures, self.dynamics, mmd=self.mmd, med=self.med, hours=hours, step=step
+            exposures,
+            self.melanin_kinetics,
+            mmd=self.mmd,
+            med=self.med,
+            hours=hours,
+            step=step,
         )
 
     @property

@@ -4,7 +4,7 @@ The one reader of a provenance, for the builder and the add-on.
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from hylios.skin import UNTANNED, Skin
 from hylios.skin.specimen import Specimen
 from hylios.sun.action_spectra import Absorptance
 from hylios.table.schema import PROVENANCE, dynamics_from
-from hylios.tanning import PIGMENTATIONS, MelaninDynamics
+from hylios.tanning import PIGMENTATIONS, Kinetics, MelaninDynamics
 
 
 @dataclass(frozen=True)
@@ -97,6 +97,21 @@ def melanin_dynamics(provenance: Mapping[str, Any]) -> MelaninDynamics:
     if "melanin_dynamics" in provenance:
         return dynamics_from(_value(provenance, "melanin_dynamics"))
     return PIGMENTATIONS[_value(provenance, "pigmentation")]
+
+
+def melanin_kinetics(provenance: Mapping[str, Any], kinetics: str = "thesis") -> Kinetics:
+    """What the melanin of a table's skin follows, by one of `hylios.tanning.KINETICS`.
+
+    By the thesis these are its `melanin_dynamics`; one table serves both.
+
+    Raises
+    ------
+    InputError
+        As `melanin_dynamics`, or for measured kinetics `skin_of`; or there is no such kinetics.
+    """
+    if kinetics == "thesis":
+        return melanin_dynamics(provenance)
+    return replace(skin_of(provenance), kinetics=kinetics).melanin_kinetics
 
 
 def own_spectra(provenance: Mapping[str, Any]) -> dict[str, str | None]:

@@ -14,16 +14,21 @@ from hylios.tanning.dynamics import (
     minimal_melanogenesis_dose,
 )
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
+from hylios.tanning.kinetics import KINETICS, Kinetics
+from hylios.tanning.measured import MeasuredDynamics
 from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
 from hylios.tanning.spread import Spread, spread_of
 from hylios.tanning.tanning_history import TanningHistory
 
 __all__ = [
+    "KINETICS",
     "LARGEST_DOSE",
     "LONGEST_HOURS",
     "PIGMENTATIONS",
     "TYPICAL_PIGMENTATION",
     "Exposures",
+    "Kinetics",
+    "MeasuredDynamics",
     "MelaninDynamics",
     "Spread",
     "TanningHistory",

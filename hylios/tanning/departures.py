@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from hylios.tanning.dynamics import MelaninDynamics, ThicknessDynamics
+from hylios.tanning.measured import MeasuredDynamics
 from hylios.tanning.recurrence import accumulated, previous
 
 Hours = np.ndarray | None
@@ -17,7 +18,7 @@ Hours = np.ndarray | None
 
 
 def melanin_departures(
-    response: np.ndarray, dynamics: MelaninDynamics, hours: Hours = None
+    response: np.ndarray, dynamics: MelaninDynamics | MeasuredDynamics, hours: Hours = None
 ) -> list[np.ndarray]:
     """Melanin of basale, spinosum, granulosum beyond that without sun, at the marks.
 
@@ -31,6 +32,9 @@ def melanin_departures(
     hours : (1, 1, 1) or (BLOCK, blocks, 1) array, or None
         From the mark before, of the response's dtype; 1 or more.
     """
+    if isinstance(dynamics, MeasuredDynamics):
+        new = _new_melanin(response, dynamics, hours)
+        return [share * new for share in dynamics.places]
     steady = dynamics.steady_state().tolist()
     start, leaving, leaving_mean = _hours_before(response, hours)
     departures: list[np.ndarray] = []
@@ -54,6 +58,30 @@ def melanin_departures(
         ) * leaving_mean
         departures.append(_departure(fading, first, last, hours))
     return departures
+
+
+def _new_melanin(response: np.ndarray, dynamics: MeasuredDynamics, hours: Hours) -> np.ndarray:
+    """Melanin that people's skin adds, at the marks (`MeasuredDynamics`)."""
+    made = dynamics.production * dynamics.gain
+    forming = _followed(response, 1.0 - dynamics.forming_decay, 1.0 - dynamics.forming_decay, hours)
+    _, _, before = _hours_before(forming, hours)
+    held_off = (made / dynamics.most) * before
+    pools = (
+        ((1.0 - dynamics.slow_share) * made, 1.0 - dynamics.fast_decay),
+        (dynamics.slow_share * made, 1.0 - dynamics.slow_decay),
+    )
+    fast, slow = (_followed(forming, share, lost + held_off, hours) for share, lost in pools)
+    return fast + slow
+
+
+def _followed(
+    values: np.ndarray, share: float, fading: np.ndarray | float, hours: Hours
+) -> np.ndarray:
+    """What an hour adds a share of `values` to, and loses by `fading`; from 0 at the first mark."""
+    start, _, _ = _hours_before(values, hours)
+    first = None if start is None else share * start.at
+    rates = np.full((1, 1, 1), fading, values.dtype) if np.ndim(fading) == 0 else fading
+    return _departure(np.asarray(rates), first, share * values, hours)
 
 
 def thickness_departure(

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,6 +27,9 @@ class MelaninDynamics:
     melanin_decay: float = 0.99
     hill_exponent: float = 0.7
     hill_constant: float = 500.0
+
+    threshold: ClassVar[float] = 1.0
+    """Energy in MMD below which nothing acts (5.7)."""
 
     def __post_init__(self):
         for name in ("production", "transfer", "extra_production", "extra_transfer"):
@@ -64,6 +68,9 @@ class ThicknessDynamics:
     hill_constant: float = 20.0
     production: float = 0.1
     extra_production: float = 0.025
+
+    threshold: ClassVar[float] = 1.0
+    """Energy in MED below which nothing acts (5.23)."""
 
     def __post_init__(self):
         require_range("production of thickness", self.production, 1e-9, 1e9)

@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.tanning.departures import melanin_departures, thickness_departure
-from hylios.tanning.dynamics import MelaninDynamics, ThicknessDynamics
+from hylios.tanning.dynamics import ThicknessDynamics
 from hylios.tanning.exposures import LONGEST_HOURS, Exposures, require_exposures
+from hylios.tanning.kinetics import Kinetics
 from hylios.tanning.recurrence import accumulated, in_a_row, in_blocks, previous
 from hylios.tanning.simulation import hill, make_relative
 
-Dynamics = TypeVar("Dynamics", MelaninDynamics, ThicknessDynamics)
+Dynamics = TypeVar("Dynamics", bound=Kinetics | ThicknessDynamics)
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,23 +29,29 @@ class Retained(Generic[Dynamics]):
     ----------
     energy : (M, H) array
         Of doses of M kinds, in multiples of the threshold (5.5, 5.21), from hour 0 on.
-    dynamics : MelaninDynamics or ThicknessDynamics
+    dynamics : MelaninDynamics, MeasuredDynamics or ThicknessDynamics
     """
 
     energy: NDArray[np.float64]
     dynamics: Dynamics
 
+    def signals(self) -> NDArray[np.float64]:
+        """The signal (M, H) where no threshold acts: a share's is that share of it (5.6, 5.8)."""
+        hours = self.energy.shape[1]
+        rate = accumulated(self.dynamics.signal_rate_decay, in_blocks(self.energy.T))
+        return in_a_row(accumulated(self.dynamics.signal_decay, rate), hours).T
+
     def acting(self) -> NDArray[np.int_]:
         """Hours whose energy can reach the threshold in a place (5.7, 5.23)."""
-        return np.flatnonzero(self.energy.sum(axis=0) >= 1.0)
+        return np.flatnonzero(self.energy.sum(axis=0) >= self.dynamics.threshold)
 
 
-Energies = tuple[Retained[MelaninDynamics], Retained[ThicknessDynamics]]
+Energies = tuple[Retained[Kinetics], Retained[ThicknessDynamics]]
 """For melanin and for thickness."""
 
 
 def retained(
-    exposures: Exposures, melanin: MelaninDynamics, *, mmd: float, med: float, hours: int
+    exposures: Exposures, melanin: Kinetics, *, mmd: float, med: float, hours: int
 ) -> Energies:
     """Energy for melanin and energy for thickness, from hour 0 up to and with hour `hours`.
 
@@ -131,7 +138,7 @@ def states_of_shares(
 
 
 def responses_of_shares(
-    retained: Retained[MelaninDynamics] | Retained[ThicknessDynamics],
+    retained: Retained[Kinetics] | Retained[ThicknessDynamics],
     shares: NDArray[np.float64],
     hours: NDArray[np.int_],
 ) -> NDArray[np.floating]:
@@ -140,6 +147,9 @@ def responses_of_shares(
     Quick for many shares: the more a place gets, the more hours act, those of most energy first.
     """
     dynamics, energy = retained.dynamics, retained.energy[0]
+    if dynamics.threshold == 0.0:
+        signal = np.multiply.outer(shares, retained.signals()[0, hours]).astype(np.float32)
+        return hill(signal, dynamics.hill_constant, dynamics.hill_exponent)
     acting = retained.acting()
     acting = acting[np.argsort(-energy[acting], kind="stable")]
     _, left = _left(dynamics, int(hours.max(initial=0)) + 1)
@@ -158,6 +168,9 @@ def _response(
 ) -> np.ndarray:
     """The Hill factor at marks, laid out in blocks (5.5 to 5.8 and 5.11, 5.21 to 5.26)."""
     dynamics = retained.dynamics
+    if dynamics.threshold == 0.0:
+        signal = in_blocks((shares @ retained.signals()[:, marks]).T.astype(dtype))
+        return hill(signal, dynamics.hill_constant, dynamics.hill_exponent)
     acting = retained.acting()
     acting = acting[acting <= marks[-1]]
     ends = np.searchsorted(marks, acting)
@@ -166,7 +179,7 @@ def _response(
     produced = np.zeros((2, len(marks), len(shares)), dtype)
     if acting.size:
         energy = retained.energy[:, acting].T.astype(dtype) @ shares.T.astype(dtype)
-        energy *= energy >= 1.0
+        energy *= energy >= dynamics.threshold
         after = marks[ends] - acting
         steps, starts = np.unique(ends, return_index=True)
         for amount, left in zip(produced, (rate_left, signal_left), strict=True):
@@ -181,7 +194,7 @@ def _response(
 
 
 def _left(
-    dynamics: MelaninDynamics | ThicknessDynamics, hours: int
+    dynamics: Kinetics | ThicknessDynamics, hours: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Signal rate and signal (hours,) left of a unit of energy of hour 0."""
     rate = np.asarray(dynamics.signal_rate_decay ** np.arange(hours), float)

@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range, require_whole
 from hylios.tanning.departures import melanin_departures, thickness_departure
-from hylios.tanning.dynamics import MelaninDynamics, ThicknessDynamics
+from hylios.tanning.dynamics import ThicknessDynamics
 from hylios.tanning.exposures import LONGEST_HOURS, Exposures, require_exposures
+from hylios.tanning.kinetics import Kinetics
 from hylios.tanning.recurrence import (
     accumulated,
     in_a_row,
@@ -34,7 +35,7 @@ CELLS_TOGETHER = 2**18
 
 def simulate(
     exposures: Exposures,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     mmd: float,
     med: float,
@@ -81,7 +82,7 @@ def simulate(
 
 def states_at(
     exposures: Exposures,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     times: ArrayLike,
     mmd: float,
@@ -143,7 +144,7 @@ def states_at(
 
 def simulate_in_parts(
     exposures: Exposures,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     *,
     mmd: float,
     med: float,
@@ -200,7 +201,7 @@ def _marks(times: np.ndarray, step: int) -> int:
 def _curves(
     exposures: Exposures,
     some: slice,
-    melanin: MelaninDynamics,
+    melanin: Kinetics,
     thickness: ThicknessDynamics,
     mmd: float,
     med: float,
@@ -236,9 +237,7 @@ def _between(
     return result
 
 
-def make_relative(
-    states: np.ndarray, melanin: MelaninDynamics, thickness: ThicknessDynamics
-) -> None:
+def make_relative(states: np.ndarray, melanin: Kinetics, thickness: ThicknessDynamics) -> None:
     """Make states of departures (..., 4), in place."""
     without_sun = np.append(melanin.steady_state(), thickness.steady_state()).astype(states.dtype)
     # What is left of a layer's melanin may round to less than none.
@@ -283,14 +282,14 @@ def _by_hour(when: np.ndarray, doses, some: slice, hours: int) -> np.ndarray:
 
 
 def _response(
-    received: np.ndarray, dynamics: MelaninDynamics | ThicknessDynamics, step: int
+    received: np.ndarray, dynamics: Kinetics | ThicknessDynamics, step: int
 ) -> NDArray[np.float64]:
     """The Hill factor at the steps' ends (5.5 to 5.8 and 5.11, 5.21 to 5.26).
 
     From doses by the hour in multiples of the threshold.
     """
     energy = accumulated(dynamics.energy_decay, received)
-    energy[energy < 1.0] = 0.0
+    energy[energy < dynamics.threshold] = 0.0
     if step == 1:
         rate = accumulated(dynamics.signal_rate_decay, energy)
         signal = accumulated(dynamics.signal_decay, rate)
@@ -300,7 +299,7 @@ def _response(
 
 
 def _signal_by_step(
-    energy: np.ndarray, dynamics: MelaninDynamics | ThicknessDynamics, step: int
+    energy: np.ndarray, dynamics: Kinetics | ThicknessDynamics, step: int
 ) -> NDArray[np.float64]:
     """The signal substance at the steps' ends, from effective energy (hours, H): exact.
 

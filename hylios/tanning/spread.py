@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
-from hylios.tanning.dynamics import MelaninDynamics
 from hylios.tanning.exposures import Exposures
+from hylios.tanning.kinetics import Kinetics
 from hylios.tanning.simulation import states_at
 
 SCHEDULES, DAYS, MOST_EXPOSURES, SEED = 24, 60, 11, 0
@@ -118,7 +118,7 @@ class Spread:
 
 
 @lru_cache(maxsize=32)
-def spread_of(dynamics: MelaninDynamics, *, mmd: float, med: float) -> Spread:
+def spread_of(dynamics: Kinetics, *, mmd: float, med: float) -> Spread:
     """The sheet of a kinetics, from some simulated schedules; the same for the same arguments.
 
     Parameters
@@ -150,7 +150,7 @@ def spread_of(dynamics: MelaninDynamics, *, mmd: float, med: float) -> Spread:
     )
 
 
-def _reached(dynamics: MelaninDynamics, mmd: float, med: float) -> np.ndarray:
+def _reached(dynamics: Kinetics, mmd: float, med: float) -> np.ndarray:
     """States (N, 4) that seeded schedules lead through."""
     random = np.random.default_rng(SEED)
     hours = 24 * DAYS

@@ -19,6 +19,7 @@ ALLOWED = {
     "hylios/lab/predecessors": {"numpy", "numba", "scipy"},
     "hylios/lab/pictures.py": {"numpy", "matplotlib"},
     "hylios/lab/fit.py": {"numpy", "scipy"},
+    "hylios/lab/kinetics_fit.py": {"numpy", "scipy"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "lut_builder/jobs/cluster.py": {"distributed", "hylios"},

@@ -7,7 +7,7 @@ reflects, and `fitted.toml` is what `hylios.lab.phototype_fits` made of both. nu
 import csv
 import tomllib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -107,13 +107,19 @@ def _phototype(name: str) -> Phototype:
     )
 
 
-def skin_type(name: str) -> Skin:
+def skin_type(name: str, *, kinetics: str = "thesis") -> Skin:
     """The skin of one of Fitzpatrick's types, I to VI, fitted to people.
+
+    Parameters
+    ----------
+    kinetics : str
+        How its melanin follows the sun: "thesis", or "measured" in people
+        (`hylios.tanning.KINETICS`).
 
     Raises
     ------
     InputError
-        If there is none of that name.
+        If there is no type or no kinetics of that name.
 
     Examples
     --------
@@ -122,7 +128,7 @@ def skin_type(name: str) -> Skin:
     >>> print(f"tans from {skin.mmd:.1f} SED, reddens from {skin.med:.1f} SED")
     tans from 5.7 SED, reddens from 3.3 SED
     """
-    return phototype(name).skin
+    return replace(phototype(name).skin, kinetics=kinetics)
 
 
 def start(name: str) -> Specimen:

@@ -59,6 +59,17 @@ def test_tan_takes_a_med_and_steps(capsys):
     assert [row["hour"] for row in longer] == ["0", "12", "24"]
 
 
+def test_tan_by_the_kinetics_measured_in_people(capsys):
+    """Half an MMD tans a little there, and not at all by the thesis."""
+    command = "tan --skin V --dose 0:0.5MMD --hours 120 --step 24".split()
+    last = []
+    for more in ([], ["--kinetics", "measured"]):
+        assert main([*command, *more]) == 0
+        last.append(rows(capsys.readouterr().out)[-1])
+    assert float(last[0]["total"]) == 1.0 and float(last[1]["basale"]) > 0.54
+    assert float(last[1]["total"]) > 1.01 and last[0]["thickness"] == last[1]["thickness"]
+
+
 @pytest.mark.parametrize("name", ["S4", "VI", "III"])
 def test_a_specimen_written_to_a_file_tans_as_by_its_name(capsys, tmp_path, name):
     assert main(["specimen", name, "--toml"]) == 0

@@ -3,7 +3,8 @@
 import pytest
 
 from hylios.errors import InputError
-from hylios.table import described_dynamics, melanin_dynamics
+from hylios.skin.phototypes import named_specimen, skin_type
+from hylios.table import described_dynamics, melanin_dynamics, melanin_kinetics
 from hylios.tanning import PIGMENTATIONS
 
 
@@ -26,3 +27,19 @@ def test_dynamics_that_are_none_are_refused(change, sentence):
     usual = described_dynamics(PIGMENTATIONS["low"])
     with pytest.raises(InputError, match=sentence):
         melanin_dynamics({"pigmentation": "low", "melanin_dynamics": {**usual, **change}})
+
+
+def test_a_table_tells_both_kinetics():
+    skin = skin_type("V")
+    provenance = {
+        "specimen_parameters": vars(named_specimen("V")),
+        "pigmentation": "intermediate",
+        "mmd_sed": skin.mmd,
+        "med_sed": skin.med,
+        "untanned_state": "melanin of each layer by the tanning set's steady state (5.16)",
+    }
+    assert melanin_kinetics(provenance) == skin.dynamics
+    measured = skin_type("V", kinetics="measured").melanin_kinetics
+    assert melanin_kinetics(provenance, "measured") == measured
+    with pytest.raises(InputError, match="kinetics are 'none'"):
+        melanin_kinetics(provenance, "none")

@@ -205,8 +205,8 @@ def fitted(start: MeasuredDynamics, starts: int = STARTS) -> MeasuredDynamics:
     best = None
     for number in range(starts):
         begun = middle + (random.normal(0.0, SPREAD) if number else 0.0)
-        found = least_squares(misfit, begun, diff_step=1e-2, max_nfev=25)
-        best = found if best is None or found.cost < best.cost else best
+        result = least_squares(misfit, begun, diff_step=1e-2, max_nfev=25)
+        best = result if best is None or result.cost < best.cost else best
     return of_numbers(best.x)
 
 

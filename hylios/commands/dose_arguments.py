@@ -38,14 +38,18 @@ from hylios.sun.doses import (
     of_uv_index,
 )
 from hylios.sun.protection import (
+    GLASS,
     NOMINAL_AMOUNT,
     Protection,
     clothing,
     layered,
     sunscreen,
     sunscreen_film,
+    water,
+    window,
 )
 from hylios.sun.sky import ClearSky
+from hylios.sun.surroundings import GROUNDS, ground_albedo
 from hylios.tanning import (
     TYPICAL_PIGMENTATION,
     minimal_erythema_dose,
@@ -137,6 +141,18 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
     for name, (metavar, help_text) in SKY.items():
         usual = f"{help_text} ({getattr(USUAL_SKY, name):g})"
         sun.add_argument(f"--{name}", type=float, metavar=metavar, help=usual)
+    grounds = ", ".join(f"{name} {ground.albedo:g}" for name, ground in GROUNDS.items())
+    sun.add_argument("--ground", choices=GROUNDS, help=f"in place of --albedo: {grounds}")
+    sun.add_argument(
+        "--cloud",
+        type=float,
+        metavar="SHARE",
+        help="of the sky that clouds cover (0); half of it leaves 0.84, all of it 0.31",
+    )
+    _add_protection_arguments(parser)
+
+
+def _add_protection_arguments(parser: argparse.ArgumentParser) -> None:
     over = parser.add_argument_group("protection", "What covers the skin at all exposures.")
     over.add_argument("--spf", type=float, help="a sunscreen's factor at 2 mg/cm^2; grey")
     over.add_argument(
@@ -153,6 +169,9 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
         help="mg/cm^2 of sunscreen (default: 2); people apply 0.5 to 1",
     )
     over.add_argument("--upf", type=float, help="the protection factor of cloth; grey")
+
+    over.add_argument("--glass", choices=GLASS, help="a pane between; window: most of the UVA")
+    over.add_argument("--water", type=float, metavar="M", help="metres of water over the skin")
 
 
 def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
@@ -188,7 +207,7 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
 def _require_place(arguments: argparse.Namespace) -> None:
     """Raise InputError where options of the sun are missing, or there without it."""
     if not arguments.sun:
-        for option in ("start", "latitude", "longitude", "utc_offset", *SKY):
+        for option in ("start", "latitude", "longitude", "utc_offset", *SKY, "ground", "cloud"):
             if getattr(arguments, option) is not None:
                 raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
     elif arguments.latitude is None:
@@ -218,6 +237,10 @@ def _of_sun(
         _date(arguments.start) if arguments.start else min((day for day, *_ in suns), default=None)
     )
     air = {name: getattr(arguments, name) for name in SKY}
+    if arguments.ground is not None:
+        if arguments.albedo is not None:
+            raise InputError("the ground is given as --ground and as --albedo; give only one.")
+        air["albedo"] = ground_albedo(arguments.ground)
     sky = ClearSky(**{name: value for name, value in air.items() if value is not None})
     return [
         of_sun(
@@ -230,6 +253,7 @@ def _of_sun(
             longitude=arguments.longitude,
             utc_offset=arguments.utc_offset or 0.0,
             sky=sky,
+            cloud=arguments.cloud or 0.0,
             protection=over,
             spectra=spectra,
             tanning=tanning,
@@ -256,6 +280,10 @@ def _protection(arguments: argparse.Namespace) -> Protection:
         raise InputError("--sunscreen-amount is given without --spf or --sunscreen.")
     if arguments.upf is not None:
         layers.append(clothing(arguments.upf))
+    if arguments.glass is not None:
+        layers.append(window(arguments.glass))
+    if arguments.water is not None:
+        layers.append(water(arguments.water))
     return layered(layers)
 
 

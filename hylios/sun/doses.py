@@ -25,6 +25,7 @@ from hylios.sun.action_spectra import (
 from hylios.sun.position import require_day, sun
 from hylios.sun.protection import BARE, Protection
 from hylios.sun.sky import ClearSky, sunlight
+from hylios.sun.surroundings import cloud_factor
 from hylios.tanning import Exposures
 
 WATTS_PER_UV_INDEX = 0.025
@@ -166,11 +167,12 @@ def of_sun(
     longitude: float | None = None,
     utc_offset: float = 0.0,
     sky: ClearSky | None = None,
+    cloud: float = 0.0,
     protection: Protection = BARE,
     spectra: Spectra | None = None,
     tanning: str = USUAL_TANNING,
 ) -> Doses:
-    """Hours of a day under a clear sky, one dose for each (5.1 to 5.4, 5.17 to 5.20).
+    """Hours of a day in the sun, one dose for each (5.1 to 5.4, 5.17 to 5.20).
 
     Parameters
     ----------
@@ -184,6 +186,8 @@ def of_sun(
     start : date, optional
         The day whose midnight is hour 0; `day` by default.
     sky : ClearSky, optional
+    cloud : float
+        Share of the sky that clouds cover, 0 to 1 (`hylios.sun.surroundings.cloud_factor`).
 
     Raises
     ------
@@ -201,21 +205,27 @@ def of_sun(
     >>> print(f"{sun.erythemal.sum():.0f} SED, counts as {sun.melanogenesis.sum():.0f}")
     43 SED, counts as 42
     """
+    begins, lengths, instants = _hours_of_sun(first, last)
+    start = require_day(start or require_day(day))
+    if day < start:
+        raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
+    place = sun(day, instants, latitude, longitude, utc_offset)
+    light = sunlight(place.zenith, sky or ClearSky(), place.distance)
+    exposure = 3600.0 * lengths[:, None] * cloud_factor(cloud) * light.level.mean(axis=1)
+    hours = 24.0 * (day - start).days + np.floor(begins)
+    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra, tanning)
+
+
+def _hours_of_sun(first: float, last: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """When hours of a day begin, how long they are (E,), and instants in them (E, INSTANTS)."""
     for hour in (first, last):
         require_range("hour of sun", hour, 0.0, 24.0)
     if first >= last:
         raise InputError(f"sun is given from {first:g} to {last:g} h; the first must be less.")
-    start = require_day(start or require_day(day))
-    if day < start:
-        raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
     edges = np.unique([first, *np.arange(np.ceil(first), np.floor(last) + 1.0), last])
     lengths = np.diff(edges)
     instants = edges[:-1, None] + lengths[:, None] * (np.arange(INSTANTS) + 0.5) / INSTANTS
-    place = sun(day, instants, latitude, longitude, utc_offset)
-    light = sunlight(place.zenith, sky or ClearSky(), place.distance)
-    exposure = 3600.0 * lengths[:, None] * light.level.mean(axis=1)
-    hours = 24.0 * (day - start).days + np.floor(edges[:-1])
-    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra, tanning)
+    return edges[:-1], lengths, instants
 
 
 def _of_light(

@@ -1,4 +1,4 @@
-"""What sunscreen and clothing let through."""
+"""What sunscreen, clothing, window panes and water let through."""
 
 from dataclasses import dataclass
 from functools import cache, reduce
@@ -144,6 +144,55 @@ def clothing(upf: float) -> Protection:
     """
     require_range("UPF", upf, 1.0, LARGEST_FACTOR)
     return _grey(1.0 / upf)
+
+
+GLASS = {"window": 0.743, "car": 0.79, "laminated": 0.02}
+"""Mean transmittance of panes in the UVA: smooth window glass (Duarte et al., Photodermatol. 2009,
+measured; all glasses stopped the UVB), tempered side glass of cars (up to that), windscreens (both
+Moehrle et al. and Tuchinda et al., as summaries have them)."""
+
+
+def window(glass: str = "window") -> Protection:
+    """A pane of `GLASS`: nothing below 320 nm, then rising to all it lets through at 345 nm.
+
+    The rise is an ESTIMATE; the mean from 320 to 400 nm is the measured one.
+
+    Raises
+    ------
+    InputError
+        If there is no such glass.
+    """
+    if glass not in GLASS:
+        raise InputError(f"the glass is {str(glass)[:60]!r}; allowed are {', '.join(GLASS)}.")
+    most = GLASS[glass] / (1.0 - 0.5 * 25.0 / 80.0)
+    return Protection(np.array([FIRST_NM, 320.0, 345.0, LAST_NM]), np.array([0, 0, most, most]))
+
+
+DEEPEST_WATER = 100.0
+
+
+def water(depth: float) -> Protection:
+    """Water over the skin, 0 to 100 m: after 1 m .46 of the UVB and .72 of the UVA are left.
+
+    Those two (uwagaslonce.pl, which does not say what water) are taken for 305 and 360 nm, and
+    attenuation falls exponentially between and beyond them. An ESTIMATE: clear ocean lets three
+    times as deep, a lake less. What the surface reflects, 3 to 6 %, is left out.
+
+    Parameters
+    ----------
+    depth : float
+        m.
+
+    Raises
+    ------
+    InputError
+        If it is out of range.
+    """
+    require_range("depth of water", depth, 0.0, DEEPEST_WATER, "m")
+    wavelengths = np.linspace(FIRST_NM, LAST_NM, 61)
+    uvb, uva = -np.log([0.46, 0.72])
+    attenuation = uvb * (uva / uvb) ** ((wavelengths - 305.0) / (360.0 - 305.0))
+    return Protection(wavelengths, np.exp(-attenuation * depth))
 
 
 def layered(layers: list[Protection]) -> Protection:

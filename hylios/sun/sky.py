@@ -48,7 +48,7 @@ class ClearSky:
     aerosol : float
         Optical depth at 500 nm over the sea's level.
     albedo : float
-        Share of the light that the ground reflects: grass .02, sand .1 to .2, fresh snow .8.
+        Share of the light that the ground reflects (`hylios.sun.surroundings.GROUNDS`).
     """
 
     ozone: float = 300.0

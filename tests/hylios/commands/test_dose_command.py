@@ -15,6 +15,7 @@ from hylios.sun.action_spectra import (
     ERYTHEMA,
 )
 from hylios.sun.doses import Doses, of_sun
+from hylios.sun.protection import water
 from hylios.sun.sky import ClearSky
 from hylios.tissue import Model
 
@@ -117,7 +118,7 @@ def test_protection_on_the_command_line(capsys, tmp_path):
     film.write_text("wavelength_nm,absorbance\n290,1\n400,1\n")
     for more, factor in (
         ("--spf 16 --sunscreen-amount 0.5", 2.0),
-        ("--upf 15", 15.0),
+        ("--upf 15 --water 0", 15.0),
         (f"--sunscreen {film}", 10.0),
         (f"--sunscreen {film} --sunscreen-amount 1 --upf 10", 10.0**1.5),
     ):
@@ -126,6 +127,24 @@ def test_protection_on_the_command_line(capsys, tmp_path):
             for name in ("erythemal_sed", "melanogenesis_sed", "thickening_sed"):
                 assert float(row[name]) == pytest.approx(float(usual[name]) / factor, rel=1e-6)
     assert "film.csv at 1 mg/cm^2 is an SPF of 3.16" in notes
+
+
+def test_ground_cloud_glass_and_water_on_the_command_line(capsys):
+    """Snow as its albedo; an overcast sky .31; a window and water as their functions have them."""
+    command = "dose --sun 2025-06-21:12-13 --latitude 40 "
+
+    def sed(more):
+        (row,), _ = run(command + more, capsys)
+        return [float(row[f"{name}_sed"]) for name in COLUMNS]
+
+    bare = np.array(sed(""))
+    assert sed("--ground snow") == sed("--albedo 0.8")
+    assert sed("--cloud 1") == pytest.approx(0.31 * bare)
+    assert np.all(sed("--glass window") < 0.15 * bare)
+    assert np.all(sed("--water 1") < 0.65 * bare)
+    skin = tabulated(SPECIMENS["S3"])
+    expected = of_sun(SUMMER, 12.0, 13.0, 40.0, skin, cloud=0.5, protection=water(2.0))
+    assert sed("--cloud 0.5 --water 2") == pytest.approx(every(expected)[:, 0])
 
 
 def test_tan_takes_what_dose_prints(capsys):
@@ -187,6 +206,10 @@ def test_tan_by_multiples(capsys):
         ("--sun 2025-06-21:10-16 --latitude 40 --specimen S7", "there is no specimen 'S7'"),
         ("--spectrum 0:/none.csv:60", "/none.csv cannot be read: No such file"),
         ("--spectrum 0:60", "expected HOUR:FILE:SECONDS"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --cloud 2", "cloud cover is 2; allowed is 0 to 1"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --ground snow --albedo 0.1", "give only one"),
+        ("--dose 0:3 --ground snow", "--ground is given without --sun"),
+        ("--dose 0:3 --water -1", "depth of water is -1 m"),
         ("--dose 0:3 --spf 0", "SPF is 0; allowed is 1 to 10000"),
         ("--dose 0:3 --upf -1", "UPF is -1"),
         ("--dose 0:3 --spf 30 --sunscreen-amount -1", "amount of sunscreen is -1 mg/cm^2"),

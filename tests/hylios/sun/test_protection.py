@@ -1,4 +1,4 @@
-"""Sunscreen and cloth."""
+"""Sunscreen, cloth, panes and water."""
 
 import numpy as np
 import pytest
@@ -14,6 +14,8 @@ from hylios.sun.protection import (
     layered,
     sunscreen,
     sunscreen_film,
+    water,
+    window,
 )
 from hylios.sun.sky import ClearSky, sunlight
 
@@ -71,6 +73,23 @@ def test_layers_multiply():
     assert layered([]) is BARE
 
 
+def test_a_window_stops_the_uvb_and_lets_the_uva_through():
+    """.743 of it, Duarte et al. 2009; the sun through it burns a tenth as much."""
+    uva = np.arange(320.0, 400.1, 0.1)
+    assert window().at(uva).mean() == pytest.approx(0.743, abs=1e-3)
+    assert np.all(window().at(uva[uva <= 320.0]) == 0.0)
+    assert 0.05 < window().of_sunlight() < 0.12
+    assert window("laminated").at(uva).mean() == pytest.approx(0.02, abs=1e-3)
+    assert np.all(window("car").at(uva) <= 1.0)
+
+
+def test_a_metre_of_water_leaves_what_was_measured():
+    assert water(1.0).at(np.array([305.0, 360.0])) == pytest.approx([0.46, 0.72], abs=2e-3)
+    assert water(2.0).at(np.array([305.0])) == pytest.approx([0.46**2], abs=2e-3)
+    assert water(0.0).of_sunlight() == 1.0
+    assert 0.46 < water(1.0).of_sunlight() < 0.6
+
+
 FACTORS = st.floats(1.0, 1e4)
 AMOUNTS = st.floats(0.0, 20.0)
 
@@ -89,6 +108,8 @@ def test_more_of_a_better_sunscreen_lets_less_through(spf, other, amount, anothe
         (lambda: sunscreen(np.nan), "SPF is nan"),
         (lambda: sunscreen(30.0, -1.0), "amount of sunscreen is -1 mg/cm\\^2"),
         (lambda: clothing(0.0), "UPF is 0"),
+        (lambda: water(-1.0), "depth of water is -1 m; allowed is 0 to 100 m"),
+        (lambda: window("ice"), "the glass is 'ice'; allowed are window, car, laminated"),
         (lambda: sunscreen_film(NM, 2.0 * FILTER + 0.5), "transmittance has a value of 1.5"),
         (lambda: sunscreen_film(NM[:5], FILTER[:5]), "needed is 290 to 400 nm"),
         (lambda: sunscreen_film(NM, FILTER[:5]), "expected two rows of one length"),

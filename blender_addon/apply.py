@@ -37,7 +37,7 @@ from .scene import (
 from .scene import skin as skins
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
-from .scene.painted import is_like_skin, painted_colour
+from .scene.painted import is_like_skin, painted_colour, weighted_median
 from .scene.plan import LOOK
 from .scene.region_nodes import Region, Spots
 from .scene.several import made_images as made_of_masks
@@ -124,11 +124,14 @@ def list_materials(obj: bpy.types.Object | None) -> str:
 
 
 def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
-    """Linear colour (3,) that the artist gave to the skin of an object, if that can be told."""
+    """Median linear colour (3,) over the area of an object's skin, as painted, if it has one."""
     ticked = slots.ticks(obj, skins.group_of(obj))
-    colours = [painted_colour(obj, material) for material, tans in ticked.items() if tans]
-    skin = [colour for colour in colours if colour is not None and is_like_skin(colour)]
-    return np.median(np.array(skin), axis=0) if skin else None
+    colours = {material: painted_colour(obj, material) for material, tans in ticked.items() if tans}
+    skin = {block: colour for block, colour in colours.items() if is_like_skin(colour)}
+    areas = slots.areas(obj)
+    if not skin:
+        return None
+    return weighted_median(np.array([*skin.values()]), np.array([areas[block] for block in skin]))
 
 
 def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:

@@ -35,14 +35,14 @@ def is_like_skin(colour: NDArray[np.float64] | None) -> bool:
 def painted_colour(
     obj: bpy.types.Object, material: bpy.types.Material
 ) -> NDArray[np.float64] | None:
-    """Median linear colour (3,) of a material where an object's faces show it.
+    """Median linear colour (3,) of a material over the area of an object's faces that show it.
 
     None where neither an image nor a plain colour leads to its shaders, or no file is there.
     """
     for path, _, end in shaders(material):
         source = _source(material, path, end)
         if isinstance(source, bpy.types.Image):
-            source = _median(source, _places(obj, material))
+            source = _median(source, *_places(obj, material))
         if source is not None:
             return source
     return None
@@ -101,37 +101,68 @@ def _is_colour(image: bpy.types.Image) -> bool:
     return not cast(Any, image.colorspace_settings).is_data
 
 
-def _places(obj: bpy.types.Object, material: bpy.types.Material) -> NDArray[np.float32] | None:
-    """Texture coordinates (N, 2) of corners of the faces that show a material."""
+Places = tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
+"""Texture coordinates (N, 2), and the area of the mesh that each stands for (N,)."""
+
+
+def _places(obj: bpy.types.Object, material: bpy.types.Material) -> Places:
+    """Corners of the faces that show a material."""
     mesh: Any = obj.data
     if not mesh.uv_layers.active or not mesh.polygons or obj.mode == "EDIT":
-        return None  # in Edit Mode a mesh does not tell its texture coordinates
-    index = np.zeros(len(mesh.polygons), np.int32)
+        return None, None  # in Edit Mode a mesh does not tell its texture coordinates
+    count = len(mesh.polygons)
+    index, counts = np.zeros(count, np.int32), np.zeros(count, np.int32)
     mesh.polygons.foreach_get("material_index", index)
-    counts = np.zeros(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("loop_total", counts)
     slots = [slot.slot_index for slot in obj.material_slots if slot.material == material]
     places = np.zeros(2 * len(mesh.loops), np.float32)
     mesh.uv_layers.active.uv.foreach_get("vector", places)
     index = index.clip(0, len(obj.material_slots) - 1)
-    shown = places.reshape(-1, 2)[np.repeat(np.isin(index, slots), counts)]
-    return shown[:: max(len(shown) // MOST_CORNERS, 1)] if len(shown) else None
+    shows = np.repeat(np.isin(index, slots), counts)
+    shown = places.reshape(-1, 2)[shows]
+    shares = np.repeat(areas_of_faces(mesh) / counts, counts)[shows]
+    step = max(len(shown) // MOST_CORNERS, 1)
+    return (shown[::step], shares[::step]) if len(shown) else (None, None)
 
 
-def _median(image: Any, places: NDArray | None) -> NDArray[np.float64] | None:
-    """Median linear colour (3,) of an image at places, or of all of it."""
+def areas_of_faces(mesh: Any) -> NDArray[np.float32]:
+    """Area of every face of a mesh; 0 where it is no number."""
+    areas = np.zeros(len(mesh.polygons), np.float32)
+    mesh.polygons.foreach_get("area", areas)
+    return np.where(np.isfinite(areas), areas, np.float32(0.0))
+
+
+def weighted_median(values: NDArray, weights: NDArray) -> NDArray[np.float64]:
+    """Median (K,) of values (N, K) with weights (N,), by columns; all count alike if all are 0."""
+    weights = weights.astype(float) if weights.any() else np.ones(len(values))
+    order = np.argsort(values, axis=0)
+    part = np.cumsum(weights[order], axis=0) / weights.sum()
+    # Where one half ends exactly between two values the median lies between them.
+    middle = [np.argmax(part > 0.5 + shift, axis=0) for shift in (-1e-9, 1e-9)]
+    picked = [np.take_along_axis(order, row[None], axis=0) for row in middle]
+    return np.mean([np.take_along_axis(values, rows, axis=0)[0] for rows in picked], axis=0)
+
+
+def _median(
+    image: Any, places: NDArray | None, shares: NDArray | None
+) -> NDArray[np.float64] | None:
+    """Median linear colour (3,) of an image at places with shares of an area, or of all of it."""
     pixels = _pixels(image)
     if pixels is None:
         return None
-    if places is not None and np.isfinite(places).all():
+    rows, columns, _ = pixels.shape
+    if places is None or shares is None or not np.isfinite(places).all():
+        pixels, shares = pixels.reshape(-1, 4), np.ones(rows * columns, np.float32)
+    else:
         inside = ((places >= 0.0) & (places < 1.0)).all(axis=1)
-        places = places[inside] if inside.any() else places % 1.0
-        rows, columns, _ = pixels.shape
-        x, y = (places * (columns, rows)).astype(int).T
+        if inside.any():
+            places, shares = places[inside], shares[inside]
+        x, y = (places % 1.0 * (columns, rows)).astype(int).T
         pixels = pixels[y.clip(0, rows - 1), x.clip(0, columns - 1)]
-    pixels = pixels.reshape(-1, 4)
-    opaque = pixels[pixels[:, 3] > 0.5]
-    colour = np.median(opaque if len(opaque) else pixels, axis=0)[:3].astype(float)
+    opaque = pixels[:, 3] > 0.5
+    if opaque.any():
+        pixels, shares = pixels[opaque], shares[opaque]
+    colour = weighted_median(pixels[:, :3].astype(float), shares)
     return colour if image.is_float else linear(colour)
 
 

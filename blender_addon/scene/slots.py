@@ -9,7 +9,7 @@ import numpy as np
 
 from .changes import Changes
 from .ownership import is_local, remembered
-from .painted import is_like_skin, painted_colour
+from .painted import areas_of_faces, is_like_skin, painted_colour
 from .plan import DAY_PROPERTY
 from .trees import chain, tan_groups, tree_of
 
@@ -93,6 +93,20 @@ def faces_of_slots(obj: bpy.types.Object) -> list[int]:
     polygons.foreach_get("material_index", indices)
     last = max(len(obj.material_slots) - 1, 0)
     return np.bincount(indices.clip(0, last), minlength=last + 1).tolist()
+
+
+def areas(obj: bpy.types.Object) -> dict[bpy.types.Material, float]:
+    """What area of a mesh object shows each material, in its own units."""
+    mesh = cast(Any, obj.data)
+    indices = np.zeros(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("material_index", indices)
+    last = max(len(obj.material_slots) - 1, 0)
+    sums = np.bincount(indices.clip(0, last), areas_of_faces(mesh), minlength=last + 1)
+    shown = dict.fromkeys(materials_of(obj), 0.0)
+    for slot, area in zip(obj.material_slots, sums.tolist(), strict=False):
+        if slot.material is not None:
+            shown[slot.material] += area
+    return shown
 
 
 def _faces(obj: bpy.types.Object) -> dict[bpy.types.Material, int]:

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from scenes import apply, tan_object
 
+from blender_addon.apply import painted_skin
 from blender_addon.model import catalogue
 from blender_addon.model.fitting import type_colours
+from blender_addon.scene.painted import weighted_median
 from blender_addon.ui import swatches
 
 III = catalogue.shipped_path("III")
@@ -145,3 +147,54 @@ def test_settings_of_a_linked_object_are_not_changed(body, tmp_path):
     for name in ("add_exposure", "match_colour", "match_texture", "choose_type", "add_region"):
         assert not getattr(bpy.ops.skin_tan, name).poll()
     assert bpy.ops.skin_tan.export_exposures.poll()
+
+
+def with_faces(obj, areas):
+    """Squares of given areas in a row, each showing its own column of a texture."""
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+    points = [np.c_[corners * area**0.5, np.full(4, 1.0 * n)] for n, area in enumerate(areas)]
+    obj.data.clear_geometry()
+    faces = np.arange(4 * len(areas)).reshape(-1, 4).tolist()
+    obj.data.from_pydata(np.concatenate(points).tolist(), [], faces)
+    columns = np.repeat((np.arange(len(areas)) + 0.5) / len(areas), 4)
+    uv = obj.data.uv_layers.new(name="UVMap").uv
+    uv.foreach_set("vector", np.c_[columns, np.full(len(columns), 0.5)].ravel())
+
+
+def textured(colours):
+    material = artist_skins.empty_material("Skin")
+    shader = artist_skins.principled(material.node_tree)
+    texture = artist_skins.texture(material.node_tree, [colours])
+    material.node_tree.links.new(texture.outputs[0], shader.inputs["Base Color"])
+    artist_skins.output_of(material.node_tree, shader.outputs[0])
+    return material
+
+
+def test_small_faces_count_little(body):
+    """Many small faces, as of hands and a face, and one large one."""
+    dark, light = type_colours()["VI"], type_colours()["II"]
+    body.data.materials.append(textured([dark, light, light, light]))
+    with_faces(body, [1.0, 0.3, 0.3, 0.3])
+    np.testing.assert_allclose(painted_skin(body), dark, rtol=1e-6)
+    with_faces(body, [1.0, 0.4, 0.4, 0.4])
+    np.testing.assert_allclose(painted_skin(body), light, rtol=1e-6)
+
+
+def test_materials_on_small_areas_count_little(body):
+    dark, light = type_colours()["VI"], type_colours()["II"]
+    with_faces(body, [1.0, 0.3, 0.3])
+    for number, colour in enumerate((dark, light, light)):
+        body.data.materials.append(textured([colour] * 3))
+        body.data.polygons[number].material_index = number
+    np.testing.assert_allclose(painted_skin(body), dark, rtol=1e-6)
+
+
+def test_a_weighted_median_is_that_of_repeated_values():
+    random = np.random.default_rng(5)
+    for count in (1, 2, 5, 8):
+        values, weights = random.random((count, 3)), random.integers(1, 4, count)
+        expected = np.median(np.repeat(values, weights, axis=0), axis=0)
+        np.testing.assert_allclose(weighted_median(values, weights), expected)
+        np.testing.assert_allclose(
+            weighted_median(values, np.zeros(count)), np.median(values, axis=0)
+        )

@@ -1,9 +1,10 @@
 """A skin's table with another biology, at once: nearly what building it anew would give.
 
-More melanin or blood is another place on the table's axes. All other change is solved for a few
-states that tans lead through, and the table is multiplied by polynomials that have gone through
-the logarithm of what they are off. Near share and far width are those at the other place: they
-follow from a random walk only. numpy only.
+More melanin or blood is another place on the table's axes. A few tans are solved and tell all
+others (`hylios.tan_fit`). Of paler, flushed and freckled skin a few states more are solved: it
+differs from the nearest tan as at the other place of the table, times polynomials that have gone
+through the logarithm of what that is off. Near share and far width are those at the other place:
+they follow from a random walk only. numpy only.
 """
 
 from collections.abc import Mapping, Sequence
@@ -22,11 +23,15 @@ from hylios.skin.specimen import Specimen
 from hylios.table.axes import LookAxes
 from hylios.table.provenance import own_spectra, skin_of
 from hylios.table.skin_table import SkinTable
-from hylios.tanning.spread import Spread, spread_of
+from hylios.tan_fit import LEAST_SPAN, PLACES, TanFit
+from hylios.tanning.spread import spread_of
 from hylios.tissue import Model
 
 COLOUR, TOTAL, WET = "subsurface_colour", "total_colour", "wet_subsurface_colour"
 BANDS = "band_reflectance"
+LIKE = {WET: COLOUR}
+"""Planes that change as another does."""
+
 ANGLES = (8.0, 45.0, 60.0, 70.0)
 WAVELENGTHS = 8
 
@@ -36,89 +41,64 @@ FRECKLE = 0.95
 FAINTEST = 1e-5
 """Least colour of which the logarithm is taken."""
 
-RIDGE = 1e-6
-"""Weight of the coefficients, squared, for each state."""
+FLUSHED = np.array([(x, z) for x in (-0.8, 0.8) for z in (0.45, 1.0)])
+"""States with more blood that are solved: x as in `hylios.tan_fit.PLACES`, and z from 0 to 1 of the
+logarithm of blood. They are half as thick as skin with so much melanin gets."""
 
+MORE_BLOOD = ((0, 1), (0, 2), (1, 1), (1, 2))
+"""Powers of x and z in the polynomials."""
 
-PLACES = np.array(
-    [
-        *((x, 0.5, 0.0) for x in (-1.0, -0.7, 0.0, 0.7, 1.0)),
-        (-0.3, 0.0, 0.0),
-        (0.8, 0.0, 0.0),
-        (0.8, 1.0, 0.0),
-        *((x, 0.5, z) for x in (-0.8, 0.8) for z in (0.45, 1.0)),
-    ]
-)
-"""States that are solved, by x, y and z: x from -1 to 1 of melanin's square root, y of the
-thickness that skin reaches with so much melanin, z of the logarithm of blood, from 0 to 1."""
+PALEST_ROOT, PALE_ROOT = 0.25, 0.7
+"""Square roots of the melanin of paler skin that is solved, relative to the skin's without sun."""
 
-OWN_BLOOD = ((0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0), (0, 1, 0), (1, 1, 0))
-MORE_BLOOD = ((0, 0, 1), (0, 0, 2), (1, 0, 1), (1, 0, 2))
-"""Powers of x, y and z in the polynomials: of skin with its own blood, and of what more adds."""
-
-OWN = 8
-"""How many of the states have the skin's own blood; they come first."""
-
-LEAST_ROOT = 0.85
-"""Square root of melanin at x of -1, relative to the skin's without sun."""
-
-PALE_ROOT = 0.25
-"""Square root of the melanin of paler skin that is solved."""
+BLOODIEST = float(np.log(MOST_BLOOD))
 
 
 @dataclass(frozen=True, eq=False)
 class Correction:
-    """By what a changed table's planes are multiplied.
+    """What a changed table's planes are instead of those at another place.
 
     Attributes
     ----------
-    low, high : float
-        Square roots of the melanin at x of -1 and 1.
-    thickest, bloodiest : float
-        Logarithms of thickness and blood at y and z of 1.
+    tans : TanFit
+        Logarithms of the planes of tans with the skin's own blood.
     beyond : (B,) array
-        Square roots of melanin below and above these, ascending, in the order of `ends`.
-    coefficients : mapping of names to (T, components) arrays
-        Of the planes' logarithms; the later terms may be left out.
+        Square roots of melanin below and above those of tans, ascending, in the order of `ends`.
+    blood : mapping of names to (T, components) arrays
+        Coefficients of `MORE_BLOOD`, of what is added to the logarithms with more blood.
     ends : mapping of names to (B, components) arrays
-        What is added to the polynomials' logarithm there, and straight in between.
+        What is added to the logarithms at the melanin of `beyond`, and straight in between.
+
+    A rough one has no `blood`, and of `beyond` only pale skin.
     """
 
-    low: float
-    high: float
-    thickest: float
-    bloodiest: float
+    tans: TanFit
     beyond: NDArray[np.float64]
-    coefficients: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
+    blood: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
     ends: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
 
-    def terms(
-        self, coordinates: np.ndarray, powers: Sequence[tuple[int, int, int]]
-    ) -> NDArray[np.float64]:
-        """The terms (..., T) at coordinates (..., 4) on a table's axes."""
-        melanin, thickness, _, blood = np.moveaxis(coordinates, -1, 0)
-        root = np.clip(np.exp(0.5 * melanin), self.low, self.high)
-        x = 2.0 * (root - self.low) / (self.high - self.low) - 1.0
-        y = np.clip(thickness / self.thickest, 0.0, 1.0)
-        z = np.clip(blood / self.bloodiest, 0.0, 1.0)
-        return np.stack([x**i * y**j * z**k for i, j, k in powers], axis=-1)
-
-    def factors(self, coordinates: np.ndarray) -> dict[str, NDArray[np.float64]]:
-        """Factors (..., components) of planes by name, at coordinates (..., 4)."""
-        terms = self.terms(coordinates, (*OWN_BLOOD, *MORE_BLOOD))
-        weights = self.weights(coordinates)
-        logarithms = {name: terms[..., : len(own)] @ own for name, own in self.coefficients.items()}
-        for name, ends in self.ends.items():
-            logarithms[name] += weights @ ends
-        return {name: np.exp(logarithm) for name, logarithm in logarithms.items()}
+    def terms(self, coordinates: np.ndarray) -> NDArray[np.float64]:
+        """The terms (..., T) of `blood` at coordinates (..., 4) on a table's axes."""
+        x = self.tans.x(coordinates[..., 0])
+        z = np.clip(coordinates[..., 3] / BLOODIEST, 0.0, 1.0)
+        return np.stack([x**i * z**k for i, k in MORE_BLOOD], axis=-1)
 
     def weights(self, coordinates: np.ndarray) -> NDArray[np.float64]:
-        """Weights (..., B) of `ends` at coordinates (..., 4): 0 where the polynomials hold."""
+        """Weights (..., B) of `ends` at coordinates (..., 4): 0 among tans."""
         root = np.exp(0.5 * coordinates[..., 0])
-        knots = np.sort([*self.beyond, self.low, self.high])
+        knots = np.sort([*self.beyond, 1.0, self.tans.high])
         return np.stack(
             [np.interp(root, knots, (knots == own).astype(float)) for own in self.beyond], axis=-1
         )
+
+    def added(self, coordinates: np.ndarray) -> dict[str, NDArray[np.float64]]:
+        """What is added to logarithms (..., components) by name, at coordinates (..., 4)."""
+        weights = self.weights(coordinates)
+        sums = {name: weights @ own for name, own in self.ends.items()}
+        if self.blood:
+            terms = self.terms(coordinates)
+            sums = {name: own + terms @ self.blood[name] for name, own in sums.items()}
+        return sums
 
 
 @dataclass(frozen=True)
@@ -147,12 +127,30 @@ class ChangedTable(SkinTable):
         """As `SkinTable.lookup`."""
         states = np.array(as_numbers("tanning states", states))
         planes = self.table.lookup(self._moved(states), names)
-        if self.correction is not None:
-            factors = self.correction.factors(self.axes.coordinates(states))
-            for name in planes:
-                if name in factors:
-                    planes[name] = planes[name] * factors[name]
+        for name, factor in self._factors(states, list(planes)).items():
+            planes[name] = planes[name] * factor
         return planes
+
+    def _factors(self, states: np.ndarray, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+        """By what planes (..., components) at the other place are to be multiplied."""
+        if self.correction is None:
+            return {}
+        tans = self.correction.tans
+        sources = {name: LIKE.get(name, name) for name in names}
+        solved = sorted({*sources.values()} & {*tans.coefficients})
+        if not solved:
+            return {}
+        coordinates = self.axes.coordinates(states)
+        nearest = tans.nearest(coordinates[..., 0], coordinates[..., 1])
+        distinct, which = np.unique(nearest.reshape(-1, 2), axis=0, return_inverse=True)
+        which = which.reshape(states.shape[:-1])
+        elsewhere = self.table.lookup(self._moved(tans.states(distinct)), solved)
+        right, added = tans.numbers(distinct), self.correction.added(coordinates)
+        factors = {}
+        for name in solved:
+            factor = np.exp(right[name]) / np.maximum(elsewhere[name], FAINTEST)
+            factors[name] = factor[which] * np.exp(added.get(name, 0.0))
+        return {name: factors[source] for name, source in sources.items() if source in factors}
 
     def _moved(self, states: np.ndarray) -> np.ndarray:
         """States of the skin itself that look nearly as those of the changed skin."""
@@ -227,35 +225,31 @@ def _correction(moved: ChangedTable, changed: Skin, rough: bool, bands: bool) ->
     """What takes a table looked up at other places to the changed skin."""
     sheet = spread_of(changed.dynamics, mmd=changed.mmd, med=changed.med)
     top = float(moved.axes.knots[0][-1])
-    high = max(float(np.exp(0.5 * (top - FRECKLE))), LEAST_ROOT + 0.1)
-    correction = Correction(
-        low=LEAST_ROOT,
-        high=high,
-        thickest=max(float(sheet.thicknesses[-1]), 0.01),
-        bloodiest=float(np.log(MOST_BLOOD)),
-        beyond=np.array([PALE_ROOT, *_freckles(high, top - np.log(max(moved.melanin, 1.0)), top)]),
-    )
-    states = _states(correction, sheet)[: OWN if rough else None]
+    high = 1.0 + max(float(np.exp(0.5 * (top - FRECKLE))) - 1.0, LEAST_SPAN)
+    tans = TanFit(changed, sheet, high)
+    last = top - np.log(max(moved.melanin, 1.0))
+    beyond = [PALE_ROOT] if rough else [PALEST_ROOT, PALE_ROOT, *_freckles(high, last, top)]
+    flushed = FLUSHED[:0] if rough else FLUSHED
+    correction = Correction(tans, np.array(beyond))
+    states = np.concatenate([tans.states(tans.tans(PLACES)), _others(correction, flushed)])
     solved = _solved(changed, states, moved)
     if bands and BANDS in moved.planes:
         solved[BANDS] = _solved_bands(changed, states, moved)
-    told = moved.lookup(states, list(solved))
-    coordinates = moved.axes.coordinates(states)
-    own, more = (correction.terms(coordinates, powers) for powers in (OWN_BLOOD, MORE_BLOOD))
-    plain, blood, ends = slice(0, OWN), slice(OWN, len(PLACES)), slice(len(PLACES), None)
-    coefficients, beyond = {}, {}
-    for name in solved:
-        off = np.log(np.maximum(solved[name], FAINTEST) / np.maximum(told[name], FAINTEST))
-        coefficients[name] = _fitted(own[plain], off[plain])
-        if not rough:
-            off = off - own @ coefficients[name]
-            added = _fitted(more[blood], off[blood])
-            coefficients[name] = np.concatenate([coefficients[name], added])
-            beyond[name] = off[ends]
-    if WET in moved.planes and COLOUR in coefficients:
-        coefficients[WET] = coefficients[COLOUR]
-        beyond |= {WET: beyond[COLOUR]} if COLOUR in beyond else {}
-    return replace(correction, coefficients=coefficients, ends=beyond)
+    logarithms = {name: np.log(np.maximum(own, FAINTEST)) for name, own in solved.items()}
+    fitted = {name: tans.coefficients_of(own[: len(PLACES)]) for name, own in logarithms.items()}
+    correction = replace(correction, tans=replace(tans, coefficients=fitted))
+    others = states[len(PLACES) :]
+    told = replace(moved, correction=correction).lookup(others, list(solved))
+    off = {
+        name: own[len(PLACES) :] - np.log(np.maximum(told[name], FAINTEST))
+        for name, own in logarithms.items()
+    }
+    correction = replace(correction, ends={name: own[len(flushed) :] for name, own in off.items()})
+    if rough:
+        return correction
+    terms = correction.terms(moved.axes.coordinates(others[: len(flushed)]))
+    blood = {name: np.linalg.solve(terms, own[: len(flushed)]) for name, own in off.items()}
+    return replace(correction, blood=blood)
 
 
 def _freckles(high: float, last: float, top: float) -> list[float]:
@@ -268,21 +262,19 @@ def _freckles(high: float, last: float, top: float) -> list[float]:
     return [bend, end] if high + 0.02 < bend < end - 0.02 else [end]
 
 
-def _fitted(terms: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Coefficients (T, components) with which terms (N, T) come nearest to values."""
-    normal = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
-    return np.linalg.solve(normal, terms.T @ values)
-
-
-def _states(correction: Correction, sheet: Spread) -> np.ndarray:
-    """States (N, 5) that tans lead through, at `PLACES`, and those beyond."""
-    x, y, z = PLACES.T
-    roots = correction.low + 0.5 * (x + 1.0) * (correction.high - correction.low)
-    melanin = 2.0 * np.log(np.concatenate([roots, correction.beyond]))
-    middle = np.full(len(correction.beyond), 0.5)
-    thickness = np.concatenate([y, middle]) * np.interp(melanin, sheet.least, sheet.thicknesses)
-    blood = np.concatenate([z * correction.bloodiest, 0.0 * middle])
-    return sheet.states(melanin, thickness, blood)
+def _others(correction: Correction, flushed: np.ndarray) -> np.ndarray:
+    """States (N, 5) besides tans: flushed, of x and z (M, 2) as in `FLUSHED`, and those beyond."""
+    tans = correction.tans
+    x, z = flushed.T
+    more = tans.tans(np.stack([x, np.full_like(x, 0.5)], axis=-1))
+    melanin = 2.0 * np.log(correction.beyond)
+    thickness = 0.5 * np.interp(melanin, tans.sheet.least, tans.sheet.thicknesses)
+    return np.concatenate(
+        [
+            tans.sheet.states(more[:, 0], more[:, 1], z * BLOODIEST),
+            tans.sheet.states(melanin, thickness),
+        ]
+    )
 
 
 def _angles(table: SkinTable) -> dict[str, tuple[str, int]]:

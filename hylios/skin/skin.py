@@ -11,7 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.skin.kinetics import measured_dynamics
-from hylios.skin.specimen import EPIDERMIS, Specimen, overfull, require_specimen, tanned
+from hylios.skin.specimen import (
+    EPIDERMIS,
+    Specimen,
+    contents,
+    overfull,
+    require_specimen,
+    tanned,
+)
 from hylios.tanning import (
     KINETICS,
     PIGMENTATIONS,
@@ -189,6 +196,17 @@ class Skin:
     def overfull(self, state: ArrayLike) -> bool:
         """Whether `at` cuts melanin in a state, as it takes them, that would overfill a layer."""
         return overfull(self.specimen, *_parts(state)[:2], self._kept)
+
+    def contents(self, states: ArrayLike) -> NDArray[np.float64]:
+        """Melanin content (..., 3) of basale, spinosum, granulosum, as volume fraction.
+
+        Parameters
+        ----------
+        states : (..., 4) or (..., 5) array
+            As `at` takes them.
+        """
+        numbers = as_numbers("tanning states", states)
+        return contents(self.specimen, numbers[..., :3], numbers[..., 3], self._kept)
 
     def states(
         self, exposures: Exposures, times: ArrayLike, *, step: int = 1

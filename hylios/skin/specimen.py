@@ -315,15 +315,32 @@ def _content(
     if melanin.shape != (3,) or not (np.all(np.isfinite(melanin)) and np.all(melanin >= 0)):
         raise InputError(f"relative melanin is {melanin.tolist()}; allowed are 3 values from 0 on.")
     require_range("relative thickness", thickness, 1e-3, 1e3)
+    return _uncut(specimen, melanin, np.array(thickness), untanned)
+
+
+def contents(
+    specimen: Specimen,
+    melanin: np.ndarray,
+    thickness: np.ndarray,
+    untanned: np.ndarray | None = None,
+) -> np.ndarray:
+    """Melanin content (..., 3) of `tanned` in many states: melanin (..., 3), thickness (...)."""
+    return np.minimum(_uncut(specimen, melanin, thickness, untanned), 1.0)
+
+
+def _uncut(
+    specimen: Specimen, melanin: np.ndarray, thickness: np.ndarray, untanned: np.ndarray | None
+) -> np.ndarray:
+    """Melanin content (..., 3), before any cut."""
     if untanned is None:
         total = specimen.melanin @ specimen.epidermal_thickness
-        return total * melanin / specimen.epidermal_thickness / thickness
+        return total * melanin / specimen.epidermal_thickness / thickness[..., None]
     untanned = np.asarray(untanned, dtype=float)
     if untanned.shape != (3,) or not (np.all(np.isfinite(untanned)) and np.all(untanned > 0)):
         raise InputError(
             f"relative melanin without sun is {untanned.tolist()}; allowed are 3 values above 0."
         )
-    return specimen.melanin * melanin / untanned / thickness
+    return specimen.melanin * melanin / untanned / thickness[..., None]
 
 
 def _melanosome_share(specimen: Specimen, layer: str) -> float:

@@ -236,8 +236,8 @@ def _correction(moved: ChangedTable, changed: Skin, rough: bool, bands: bool) ->
     if bands and BANDS in moved.planes:
         solved[BANDS] = _solved_bands(changed, states, moved)
     logarithms = {name: np.log(np.maximum(own, FAINTEST)) for name, own in solved.items()}
-    fitted = {name: tans.coefficients_of(own[: len(PLACES)]) for name, own in logarithms.items()}
-    correction = replace(correction, tans=replace(tans, coefficients=fitted))
+    fitted = tans.fitted({name: own[: len(PLACES)] for name, own in logarithms.items()})
+    correction = replace(correction, tans=fitted)
     others = states[len(PLACES) :]
     told = replace(moved, correction=correction).lookup(others, list(solved))
     off = {

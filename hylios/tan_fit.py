@@ -7,7 +7,7 @@ the melanin that is left, it does not bend. numpy only.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,8 +99,8 @@ class TanFit:
         squared = ((others[..., None, :] - nodes) ** 2).sum(axis=-1)
         return np.concatenate([np.exp(-0.5 * squared), self._linear(tans)], axis=-1)
 
-    def coefficients_of(self, values: np.ndarray) -> NDArray[np.float64]:
-        """Coefficients (T, components) for values (N, components) at `PLACES`."""
+    def fitted(self, values: Mapping[str, np.ndarray]) -> "TanFit":
+        """This with numbers (N, components) by name at `PLACES`."""
         terms = self.terms(self.tans(PLACES))
         count = len(terms)
         alike, linear = terms[:, :count], terms[:, count:]
@@ -108,7 +108,13 @@ class TanFit:
         whole = np.block(
             [[alike + NUGGET * np.eye(count), linear], [linear.T, -FLAT * np.eye(parts)]]
         )
-        return np.linalg.solve(whole, np.concatenate([values, np.zeros((parts, values.shape[1]))]))
+        joined = np.concatenate(list(values.values()), axis=1)
+        coefficients = np.linalg.solve(whole, np.pad(joined, ((0, parts), (0, 0))))
+        ends = np.cumsum([own.shape[1] for own in values.values()])[:-1]
+        return replace(
+            self,
+            coefficients=dict(zip(values, np.split(coefficients, ends, axis=1), strict=True)),
+        )
 
     def numbers(self, tans: np.ndarray) -> dict[str, NDArray[np.float64]]:
         """Numbers (..., components) by name, at u and v (..., 2)."""

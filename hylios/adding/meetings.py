@@ -35,11 +35,10 @@ def met_in_layer(
     by_diameter = stacks.readings["complex_melanosomes"] == "diameter"
     survival = _survivals(numbers, here, stacks)
     sizes = np.stack([numbers[name][here] for name in SIZES], axis=1)
-    for size in np.unique(sizes, axis=0):
-        alike = np.all(sizes == size, axis=1)
+    for size, alike in _distinct(sizes):
         some = here[alike]
         own = {name: number[some] for name, number in numbers.items()}
-        one = replace(layer, **{**own, **dict(zip(SIZES, size.tolist(), strict=True))})
+        one = replace(layer, **{**own, **dict(zip(SIZES, size, strict=True))})
         rate[some], once[some], twice[some] = encounters(one, survival[alike], by_diameter)
         factor[some] = left_out(one)
     return rate, once, twice, factor
@@ -73,6 +72,9 @@ def _survivals(numbers: dict[str, Any], here: np.ndarray, stacks: Stack) -> np.n
 
 def _distinct(rows: np.ndarray):
     """Distinct rows, and where they stand."""
+    if np.all(rows == rows[0]):
+        yield rows[0].tolist(), np.arange(len(rows))
+        return
     distinct, which = np.unique(rows, axis=0, return_inverse=True)
     for number, row in enumerate(distinct.tolist()):
         yield row, np.flatnonzero(which.reshape(-1) == number)

@@ -24,7 +24,7 @@ from hylios.tissue.stacks import joined, some_of, stacks_of
 NODES = 22
 """Directions by default: within 2.5e-4 of what many more give, 1e-4 rms."""
 
-TOGETHER = 64
+TOGETHER = 128
 """Stacks solved at once, for their matrices to stay in a processor's cache."""
 
 

@@ -3,6 +3,7 @@
 import tomllib
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, asdict, dataclass, field, fields, replace
+from functools import cache
 from importlib.resources import files
 from numbers import Real
 from types import MappingProxyType
@@ -109,11 +110,11 @@ class Specimen:
                 f"melanosome_arrangement is {self.melanosome_arrangement!r}; "
                 f"allowed is {', '.join(ARRANGEMENTS)}."
             )
-        for parameter in parameters():
-            name, limits = parameter.name, parameter.metadata
-            value = _number(name, getattr(self, name))
-            require_range(name, value, limits["low"], limits["high"], _unit(parameter))
-        for layer, content in zip(reversed(EPIDERMIS), self.melanin, strict=True):
+        for name, low, high, unit in _limits():
+            value = getattr(self, name)
+            if not isinstance(value, float) or not low <= value <= high:
+                require_range(name, _number(name, value), low, high, unit)
+        for layer, content in zip(reversed(EPIDERMIS), self.melanin.tolist(), strict=True):
             if content > 1.0 + 1e-9:
                 raise InputError(
                     f"{layer}_melanosomes and {layer}_colloidal_melanin together are "
@@ -176,6 +177,20 @@ def parameters() -> list[Field]:
 def _unit(parameter: Field) -> str:
     """A field's unit as it stands behind a number."""
     return "" if parameter.metadata["unit"] == "1" else parameter.metadata["unit"]
+
+
+@cache
+def _limits() -> tuple[tuple[str, float, float, str], ...]:
+    """Name, least and largest value of the numeric fields, and unit as it stands behind them."""
+    return tuple(
+        (
+            parameter.name,
+            parameter.metadata["low"],
+            parameter.metadata["high"],
+            _unit(parameter),
+        )
+        for parameter in parameters()
+    )
 
 
 def _number(name: str, value: Any) -> float:

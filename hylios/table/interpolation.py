@@ -113,11 +113,17 @@ def _interpolated(
     starts = np.flatnonzero(np.diff(cells[order], prepend=-1))
     # Corners and kinds of number of each axis side by side: the order of the weights.
     by_axis = [place for k in range(count) for place in (k, count + 1 + k)] + [count]
-    result = np.empty((len(positions), nodes.shape[count]))
+    *others, last = (weights for _, weights in axes)
+    components = nodes.shape[count]
+    result = np.empty((len(positions), components))
     for those in np.split(order, starts[1:]):
         corners = tuple(slice(low, low + 2) for low in lows[:, those[0]])
-        block = nodes[corners].transpose(by_axis).reshape(-1, nodes.shape[count])
-        result[those] = reduce(_products, (weights[those] for _, weights in axes)) @ block
+        block = nodes[corners].transpose(by_axis)
+        # the last axis on its own: products with it too would be many more numbers
+        block = block.reshape(-1, last.shape[1] * components)
+        first = reduce(_products, (weights[those] for weights in others), np.ones((len(those), 1)))
+        sums = (first @ block).reshape(-1, last.shape[1], components)
+        result[those] = (last[those, None] @ sums)[:, 0]
     return result
 
 

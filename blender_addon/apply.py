@@ -100,7 +100,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += [] if rough else [*_on_dose(obj, values), *_on_own_masks(settings)]
-        said += several.remarks(of_masks) if of_masks else mask_values.remarks(obj, mask, shown)
+        on_masks = several.remarks(obj, of_masks) if of_masks and not rough else []
+        said += on_masks if of_masks else mask_values.remarks(obj, mask, shown)
         said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
 

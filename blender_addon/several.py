@@ -1,34 +1,41 @@
 """The tan of an object whose exposures have several masks, from its settings to its nodes."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
 
 import bpy
+import numpy as np
 
 from .model import basis
-from .model.tan import basis_of
+from .model.grid import MOST_MASKS_READ
+from .model.tan import BasisOverShares, basis_of, basis_over_shares
 from .props import settings_of
-from .scene import images, several
+from .scene import images, several, several_nodes
 from .scene.changes import Changes
-from .scene.mask_values import mask_values
+from .scene.mask_nodes import shown_mask
+from .scene.mask_values import mask_values, remarks_on_several
+from .scene.masks import Mask
 
 
 @dataclass(frozen=True, eq=False)
-class Computed:
-    """The tan of several masks.
+class AtPoints:
+    """A basis at points of a mesh.
 
     Attributes
     ----------
-    domain : str
-        POINT or CORNER: what the basis is told at.
     basis : Basis
+    on_mesh : OnMesh
     said : tuple of str
         Sentences on the masks.
     """
 
-    domain: str
     basis: basis.Basis
+    on_mesh: several.OnMesh
     said: tuple[str, ...]
+
+
+Computed = AtPoints | BasisOverShares
 
 
 def has_several(obj: bpy.types.Object) -> bool:
@@ -37,7 +44,7 @@ def has_several(obj: bpy.types.Object) -> bool:
 
 
 def computed(obj: bpy.types.Object, *, rough: bool = False) -> Computed | None:
-    """The tan of an object's masks; None where there is one mask at most.
+    """The basis of an object's masks; None where there is one mask at most.
 
     Parameters
     ----------
@@ -51,23 +58,24 @@ def computed(obj: bpy.types.Object, *, rough: bool = False) -> Computed | None:
     """
     if not has_several(obj):
         return None
-    precision = basis.DRAG if rough else basis.FULL
     settings = settings_of(obj)
     masks = settings.masks()
-    distinct = list(dict.fromkeys(masks))
+    distinct = _distinct(obj)
+    which = [distinct.index(mask) for mask in masks]
+    if len(distinct) <= MOST_MASKS_READ:
+        return basis_over_shares(settings.values(), which, rough=rough)
+    precision = basis.DRAG if rough else basis.FULL
     mesh = cast(bpy.types.Mesh, obj.data)
     values = [mask_values(obj, mask) for mask in distinct]
     domain, shares = several.shares_of_masks(mesh, values)
-    which = [distinct.index(mask) for mask in masks]
     made = basis_of(settings.values(), which, shares, precision)
-    return Computed(domain, made, tuple(said for own in values for said in own.said))
+    share = (shares @ made.weights).astype(np.float32)
+    said = tuple(said for own in values for said in own.said)
+    return AtPoints(made, several.OnMesh(made.coefficients, share, domain), said)
 
 
 def show(
-    obj: bpy.types.Object,
-    group: bpy.types.NodeTree,
-    made: Computed | None,
-    changes: Changes,
+    obj: bpy.types.Object, group: bpy.types.NodeTree, made: Computed | None, changes: Changes
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks, or one again; new images by former ones."""
     if made is None:
@@ -76,16 +84,28 @@ def show(
     told = made.basis
     rows = images.packed_image(f"Skin Tan Masks {obj.name}", told.rows, is_colour=False)
     days = images.packed_image(f"Skin Tan Mask Days {obj.name}", told.places, is_colour=False)
-    sampled = several.SampledBasis(told.coefficients, told.share, made.domain, rows, days)
-    return several.show(obj, group, sampled, changes)
+    shapes = several_nodes.Basis(told.rank, rows, days)
+    if isinstance(made, AtPoints):
+        return several.show(obj, group, shapes, made.on_mesh, changes)
+    name = f"Skin Tan Mask Shares {obj.name}"
+    image = images.packed_image(name, made.image, is_colour=False)
+    grid = several_nodes.Grid(image, made.steps, [float(weight) for weight in told.weights])
+    shown = [shown_mask(obj, mask, changes) for mask in _distinct(obj)]
+    return several.show(obj, group, shapes, several.OverShares(grid, shown), changes)
 
 
-def remarks(made: Computed) -> list[str]:
+def remarks(obj: bpy.types.Object, made: Computed) -> list[str]:
     """Sentences on the masks, and on whether they are too many to show exactly."""
-    if made.basis.error <= basis.WANTED["most"]:
-        return [*made.said]
-    return [
-        *made.said,
-        f"The masks lead to so many different tans that some points are off by up to "
-        f"{made.basis.error:.0%} of their melanin.",
-    ]
+    is_read = isinstance(made, BasisOverShares)
+    said = remarks_on_several(obj, _distinct(obj)) if is_read else [*made.said]
+    if made.basis.error > basis.WANTED["most"]:
+        said.append(
+            f"The masks lead to so many different tans that some points are off by up to "
+            f"{made.basis.error:.0%} of their melanin."
+        )
+    return said
+
+
+def _distinct(obj: bpy.types.Object) -> Sequence[Mask]:
+    """The masks that differ, in the order of the exposures."""
+    return list(dict.fromkeys(settings_of(obj).masks()))

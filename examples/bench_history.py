@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from blender_addon.model import basis, catalogue, history
+from blender_addon.model import basis, catalogue, grid, history
 from blender_addon.model.look import COLOUR
 from hylios.colour_difference import ciede2000, lab
 from hylios.skin import Skin
@@ -22,7 +22,7 @@ TYPE = "III"
 SCHEDULES = ((30, 1), (30, 20), (60, 10), (365, 20))
 """Days and exposures of schedules for one mask."""
 
-MASKS, EXPOSURES_OF_MASK, DAYS = (2, 5, 8), 4, 60
+MASKS, EXPOSURES_OF_MASK, DAYS = (2, 3, 5, 8), 4, 60
 
 SIDE, SOFT = 316, 10.0
 """Vertices along the side of a square mesh, 99,856 in all; width of masks' edges in vertices."""
@@ -44,8 +44,15 @@ def main() -> None:
     for masks in MASKS:
         received = [joined(_doses(random, EXPOSURES_OF_MASK, DAYS, skin)) for _ in range(masks)]
         shares = _soft_masks(random, masks)
-        for name, precision in (("Apply", basis.FULL), ("dragging", basis.DRAG)):
-            _report_basis(random, skin, received, shares, f"{name}, {masks} masks", precision)
+        for name, over_shares, of_points in (
+            ("Apply", grid.FULL_GRID, basis.FULL),
+            ("dragging", grid.DRAG_GRID, basis.DRAG),
+        ):
+            told = skin, received, shares, f"{name}, {masks} masks"
+            if masks <= grid.MOST_MASKS_READ:
+                _report_grid(random, *told, over_shares)
+            else:
+                _report_basis(random, *told, of_points)
 
 
 def _report_history(random, skin: Skin, received: Doses, days: int, name: str, precision) -> None:
@@ -75,15 +82,41 @@ def _report_basis(
 
     made, milliseconds = _timed(work)
     hours = random.integers(0, 24 * DAYS, PLACES)
-    corners = random.integers(0, SIDE - 1, (PLACES, 2)) @ [SIDE, 1]
-    faces = corners[:, None] + [0, 1, SIDE]
-    inside = random.dirichlet(np.ones(3), PLACES)
-    for where, weights in (("vertices", np.eye(3)[:1].repeat(PLACES, 0)), ("in faces", inside)):
+    for where, faces, weights in _places(random):
         held = np.einsum("nk,nkr->nr", weights, made.coefficients[faces])
         between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
         seen = basis.shown(made, held, hours / 24.0)
         errors = _errors(skin, seen, received, between, hours)
         _print(f"{name}, {where}", milliseconds, errors, f"rank {made.rank}")
+
+
+def _report_grid(
+    random, skin: Skin, received: Sequence[Doses], shares: NDArray, name: str, precision
+) -> None:
+    span = {"first_day": 0.0, "last_day": float(DAYS), "mmd": skin.mmd, "med": skin.med}
+    masks = len(received)
+    steps = precision.steps[masks]
+
+    def work():
+        given = grid.shares_of_grid(masks, steps)
+        made = basis.basis(received, given, skin.dynamics, precision=precision.basis, **span)[0]
+        return made, grid.image_of(made.coefficients, masks, steps)
+
+    (made, image), milliseconds = _timed(work)
+    hours = random.integers(0, 24 * DAYS, PLACES)
+    for where, faces, weights in _places(random):
+        between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
+        seen = basis.shown(made, grid.coefficients_at(image, between), hours / 24.0)
+        errors = _errors(skin, seen, received, between, hours)
+        _print(f"{name}, {where}", milliseconds, errors, f"image {image.shape[:2]}")
+
+
+def _places(random) -> tuple[tuple[str, NDArray, NDArray], ...]:
+    """Vertices and points in faces: points of a face (places, 3), and their weights."""
+    corners = random.integers(0, SIDE - 1, (PLACES, 2)) @ [SIDE, 1]
+    faces = corners[:, None] + [0, 1, SIDE]
+    inside = random.dirichlet(np.ones(3), PLACES)
+    return ("vertices", faces, np.eye(3)[:1].repeat(PLACES, 0)), ("in faces", faces, inside)
 
 
 def _doses(random, count: int, days: int, skin: Skin) -> list[Doses]:

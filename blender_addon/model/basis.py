@@ -4,9 +4,9 @@ A point gets a share of the doses of every mask. Its coordinates (u, v, b; see `
 
     c(point, day) = mean(day) + sum of a_k(point) phi_k(day),  k = 1 to the rank
 
-so a mesh holds the coefficients a_k, four to a colour attribute, and a small image the mean and the
-phi_k. Attributes are interpolated across a face; a tan then runs straight from one point to the
-next, where the model has jumps.
+so a small image holds the mean and the phi_k, and either a mesh the coefficients a_k, four to a
+colour attribute, or another image, over the shares themselves (`grid`). Attributes are interpolated
+across a face; a tan then runs straight from one point to the next, where the model has jumps.
 
 What a shader computes, for red, green and blue, which are u, v and b:
 
@@ -14,8 +14,8 @@ What a shader computes, for red, green and blue, which are u, v and b:
    x = (.5 + (STEPS) (day - first_day) / (last_day - first_day)) / (STEPS + 1), y = .5;
    the images hold their edge.
 2. the mean: `rows` sampled at x = .5 / (rank + 1) and that y.
-3. for every k: plus a_k times `rows` sampled at x = (k + .5) / (rank + 1) and that y, where a_1 to
-   a_4 are red, green, blue and alpha of the first attribute, and so on.
+3. for every k: plus a_k times `rows` sampled at x = (k + .5) / (rank + 1) and that y. Of a mesh a_1
+   to a_4 are red, green, blue and alpha of the first attribute, and so on.
 
 `shown` is the same in numpy.
 """
@@ -66,21 +66,21 @@ class BasisPrecision:
         Most hours.
     rounds : int
         Of `principal_shapes`.
-    rank : int or None
-        One of `RANKS`, or the least that is enough.
+    ranks : tuple of int
+        Of which the least that is enough is taken, or else the last.
     """
 
     levels: int
     most: int
     rows: int
     rounds: int
-    rank: int | None = None
+    ranks: tuple[int, ...] = RANKS
 
 
-FULL = BasisPrecision(127, 30_000, 128, 4)
+FULL = BasisPrecision(127, 60_000, 128, 4)
 """For what stays in a file."""
 
-DRAG = BasisPrecision(6, 6_000, 80, 1, rank=12)
+DRAG = BasisPrecision(6, 6_000, 80, 1, ranks=(12,))
 """For a picture while somebody changes a setting."""
 
 
@@ -95,8 +95,8 @@ class Basis:
         u, v and b of the mean, and of the shapes, by day; the first row is that of the first day.
     places : (1, STEPS + 1, 3) float32 array
         Over even steps of the days, in green: the place among the rows.
-    share : (N,) float32 array
-        Of all doses, for melanin: what a single mask's share is to a single mask.
+    weights : (M,) array
+        Of the masks' shares in the share of all doses, for melanin.
     error : float
         Largest error of u over points and rows, or what v's means for u.
     first_day, last_day : float
@@ -105,7 +105,7 @@ class Basis:
     coefficients: NDArray[np.float32]
     rows: NDArray[np.float32]
     places: NDArray[np.float32]
-    share: NDArray[np.float32]
+    weights: NDArray[np.float64]
     error: float
     first_day: float
     last_day: float
@@ -175,16 +175,8 @@ def basis(
     rows[..., 0] = lines[:, : len(hours)].T
     rows[..., 1] = lines[:, len(hours) :].T / THICKENING
     doses = exposures.doses.sum(axis=1)
-    share = given @ (doses / max(doses.sum(), 1e-30))
-    told = Basis(
-        coefficients[point],
-        rows,
-        places,
-        share.astype(np.float32),
-        error,
-        first_day,
-        last_day,
-    )
+    weights = doses / max(doses.sum(), 1e-30)
+    told = Basis(coefficients[point], rows, places, weights, error, first_day, last_day)
     return told, states
 
 
@@ -233,7 +225,7 @@ def _shapes(
     curves: NDArray[np.float32], counts: NDArray[np.int_], precision: BasisPrecision
 ) -> tuple[Shapes, NDArray[np.float32], float]:
     """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
-    *first, last = RANKS if precision.rank is None else (precision.rank,)
+    *first, last = precision.ranks
     for rank in first:
         shapes, coefficients, errors = _of_rank(curves, counts, rank, precision)
         if _is_enough(errors, counts, errors.max(axis=1)):

@@ -2,9 +2,10 @@
 
 import functools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
@@ -16,6 +17,7 @@ from . import catalogue, doses
 from .basis import FULL as FULL_BASIS
 from .basis import Basis, BasisPrecision, basis
 from .biology import table_with
+from .grid import DRAG_GRID, FULL_GRID, image_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
 from .settings import Exposure, TanSettings, check_days
@@ -185,6 +187,51 @@ def basis_of(
     )
     _require_held(table, states)
     return made
+
+
+@dataclass(frozen=True, eq=False)
+class BasisOverShares:
+    """A basis whose coefficients are an image over the shares of its masks (`grid`).
+
+    Attributes
+    ----------
+    basis : Basis
+        At the steps of the grid.
+    image : (rows, columns, 3) float32 array
+    steps : int
+        Of a share.
+    """
+
+    basis: Basis
+    image: NDArray[np.float32]
+    steps: int
+
+
+def basis_over_shares(
+    settings: TanSettings, which: Sequence[int], *, rough: bool = False
+) -> BasisOverShares:
+    """The coordinates over the shares of a few masks; made anew only for another history.
+
+    Parameters
+    ----------
+    rough : bool
+        Whether it is for a picture while somebody changes a setting.
+
+    Others and errors as of `basis_of`.
+    """
+    stamp = catalogue.stamp(settings.table)
+    history_only = replace(settings, biology=Biology())
+    return _over_shares(history_only, stamp, tuple(which), rough)
+
+
+@functools.lru_cache(maxsize=8)
+def _over_shares(
+    settings: TanSettings, stamp: tuple[int, int], which: tuple[int, ...], rough: bool
+) -> BasisOverShares:
+    masks, precision = len(set(which)), DRAG_GRID if rough else FULL_GRID
+    steps = precision.steps[masks]
+    made = basis_of(settings, which, shares_of_grid(masks, steps), precision.basis)
+    return BasisOverShares(made, image_of(made.coefficients, masks, steps), steps)
 
 
 def _require_held(table: SkinTable, states: NDArray) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from . import mask_nodes, nodes, plan
+from . import mask_nodes, nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
 from .masks import Mask
@@ -74,7 +74,6 @@ PREFIX = "film_"
 """Of the roles of nodes that read where the film lies: those that read where the sun reaches."""
 
 FIRST = PREFIX + "mask_value"
-MASK = ("mask", "mask_channel", "mask_alpha", "mask_value", "mask_share", "share")
 
 
 @dataclass(frozen=True)
@@ -160,12 +159,9 @@ def _show_mask(group: Any, mask: ShownMask, changes: Changes) -> None:
     if masked and any(nodes.of_role(group, "film")) and not any(nodes.of_role(group, FIRST)):
         changes.may_add_to(group.nodes)
         changes.may_relink(group)
-        roles, links = mask_nodes.prefixed(
-            {role: plan.ROLES[role] for role in MASK},
-            [link for link in plan.LINKS if {link[0], link[2]} <= set(MASK)],
-            PREFIX,
-        )
-        nodes.complete(group, roles, roles, [*links, (PREFIX + "share", "Value", "film", 1)])
+        mask_nodes.added(group, mask, changes, PREFIX)
+        nodes.link(group, (PREFIX + "share",), [(PREFIX + "share", "Value", "film", 1)])
+        return
     mask_nodes.show(group, mask, changes, PREFIX)
 
 

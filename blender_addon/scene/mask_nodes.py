@@ -12,7 +12,7 @@ from .changes import Changes
 from .masks import COLOURS, Mask, require_usable
 from .nodes import complete, find_input, of_role
 from .ownership import Users, is_local, remembered
-from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY, Link, Role
+from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY, LINKS, ROLES, Link, Role
 from .vertex_groups import copied
 
 WEIGHTS = {
@@ -23,6 +23,9 @@ WEIGHTS = {
     "ALPHA": (0.0, 0.0, 0.0),
 }
 """Of red, green and blue in the number that a channel gives."""
+
+SHARE_ROLES = ("mask", "mask_channel", "mask_alpha", "mask_value", "mask_share", "share")
+"""Roles of the nodes that read a mask which is no image."""
 
 NUMBER, NOTHING = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 
@@ -125,6 +128,18 @@ def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: 
     ):
         for node in of_role(group, prefix + role):
             changes.set(node, name, value)
+
+
+def added(tree: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: str) -> Any:
+    """Add the nodes of another mask to a tree; the last of them, which gives the share."""
+    roles, links = prefixed(
+        {role: ROLES[role] for role in SHARE_ROLES},
+        [link for link in LINKS if {link[0], link[2]} <= set(SHARE_ROLES)],
+        prefix,
+    )
+    complete(tree, roles, roles, links)
+    show(tree, shown, changes, prefix)
+    return next(of_role(tree, prefix + "share"))
 
 
 def prefixed(

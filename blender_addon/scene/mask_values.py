@@ -1,5 +1,6 @@
 """The numbers of a mask on a mesh, whatever the mask reads."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -87,6 +88,12 @@ def remarks(obj: bpy.types.Object, mask: Mask, shown: ShownMask) -> list[str]:
     """
     numbers = _shown_numbers(obj, mask, shown)
     return [] if numbers is None else _said(mask, numbers, ", so nothing tans")
+
+
+def remarks_on_several(obj: bpy.types.Object, masks: Iterable[Mask]) -> list[str]:
+    """Sentences on the masks of several exposures."""
+    read = ((mask, _shown_numbers(obj, mask, ShownMask(image=mask.image))) for mask in masks)
+    return [said for mask, own in read if own is not None for said in _said(mask, own)]
 
 
 def _said(mask: Mask, numbers: NDArray[np.float32], where_covered: str = "") -> list[str]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import bpy
 
-from . import mask_nodes, nodes, plan
+from . import mask_nodes, nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
 from .plan import ROLE_KEY, Role, math_role
@@ -26,7 +26,6 @@ OUTPUTS = {
     "Tan": "Logarithm of the melanin that sun adds, over that around it",
 }
 
-MASK = ("mask", "mask_channel", "mask_alpha", "mask_value", "mask_share", "share")
 PLACE, BENT = "region_place", "region_bent"
 SPREAD = 1.0
 """Places of spots lie as by chance. With less, a flat skin along the axes would cut more of them or
@@ -120,14 +119,7 @@ def _weight(
 
 
 def _masked(tree: Any, prefix: str, region: Region, mask: ShownMask, changes: Changes) -> Any:
-    roles, links = mask_nodes.prefixed(
-        {role: plan.ROLES[role] for role in MASK},
-        [link for link in plan.LINKS if {link[0], link[2]} <= set(MASK)],
-        prefix,
-    )
-    nodes.complete(tree, roles, roles, links)
-    mask_nodes.show(tree, mask, changes, prefix)
-    share = next(nodes.of_role(tree, prefix + "share"))
+    share = mask_nodes.added(tree, mask, changes, prefix)
     amount = _node(
         tree,
         math_role("MULTIPLY", f"Strength, {region.label}", (-800, 0), at_1=region.strength),

@@ -1,8 +1,8 @@
-"""A tan of several masks: its coefficients on the mesh, and the nodes that read them.
+"""A tan of several masks, in an object's group of nodes and on its mesh.
 
-The tan's group has one node more, a group that computes the skin's state from colour attributes and
-a small image (`blender_addon.model.basis` says how); it takes the place of the image of states. The
-mask's nodes then read the share of all doses, which the output Share gives.
+The group has one node more, a group (`several_nodes`) that computes the skin's state and the share
+of all doses; it takes the place of the image of states and of the mask's nodes. It reads a few
+masks themselves, or of more masks attributes that are written onto the mesh.
 """
 
 import json
@@ -15,32 +15,34 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from . import several_nodes
 from .changes import Changes
-from .mask_nodes import NUMBER, ShownMask
-from .mask_nodes import show as show_mask
+from .mask_nodes import ShownMask
 from .mask_values import MaskValues
 from .nodes import new_node, of_role
 from .ownership import remembered
-from .plan import ROLE_KEY, Role
+from .plan import Role
+from .several_nodes import ATTRIBUTES_KEY, VALUES_OF_ATTRIBUTE, Basis, Grid
 from .vertex_groups import new_attribute, remove_attribute
 
 PREFIX = "skin_tan_basis_"
 
-ATTRIBUTES_KEY = "skin_tan_basis"
-"""Custom property of a mesh: names of the attributes that Apply made for several masks, as JSON.
-Of a group of nodes: those that it reads."""
-
-IMAGE_KEYS = {"rows": "skin_tan_basis_rows", "days": "skin_tan_basis_days"}
+IMAGE_KEYS = {
+    "rows": "skin_tan_basis_rows",
+    "days": "skin_tan_basis_days",
+    "grid": "skin_tan_basis_grid",
+}
 """Custom properties of a tan's group: the images of its basis."""
 
 BASIS = {"basis": Role("ShaderNodeGroup", "State of several masks", (-300, -150))}
 
-VALUES_OF_ATTRIBUTE = 4
+REPLACED = {"State": ("states", "Color"), "Share": ("share", "Value")}
+"""Roles and outputs whose place outputs of the node take."""
 
 
 @dataclass(frozen=True, eq=False)
-class SampledBasis:
-    """What a tan of several masks shows.
+class OnMesh:
+    """What is written onto a mesh for a tan of several masks.
 
     Attributes
     ----------
@@ -49,19 +51,25 @@ class SampledBasis:
         Of all doses.
     domain : str
         POINT or CORNER: what the N are.
-    rows, days : Image
-        Mean and shapes by day; where a day lies among the rows.
     """
 
     coefficients: NDArray[np.float32]
     share: NDArray[np.float32]
     domain: str
-    rows: bpy.types.Image
-    days: bpy.types.Image
 
-    @property
-    def rank(self) -> int:
-        return self.coefficients.shape[1]
+
+@dataclass(frozen=True, eq=False)
+class OverShares:
+    """What a tan reads that finds its coefficients by the shares of masks.
+
+    Attributes
+    ----------
+    grid : Grid
+    masks : sequence of ShownMask
+    """
+
+    grid: Grid
+    masks: Sequence[ShownMask]
 
 
 def shares_of_masks(
@@ -87,36 +95,69 @@ def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
 
 
 def show(
-    obj: bpy.types.Object, group: bpy.types.NodeTree, sampled: SampledBasis, changes: Changes
+    obj: bpy.types.Object,
+    group: bpy.types.NodeTree,
+    basis: Basis,
+    source: OnMesh | OverShares,
+    changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks; which new image replaces which former one."""
-    replaced = {}
-    for role, image in (("rows", sampled.rows), ("days", sampled.days)):
-        former = group.get(IMAGE_KEYS[role])
-        if former is not None:
-            replaced[former] = image
-        changes.set_key(group, IMAGE_KEYS[role], image)
     node = next(of_role(group, "basis"), None)
-    names = _written(obj, [] if node is None else _names(node.node_tree), sampled, changes)
-    tree = _new_tree(f"Skin Tan Masks {obj.name}", sampled, names)
+    name = f"Skin Tan Masks {obj.name}"
+    made = {"rows": basis.rows, "days": basis.days}
+    if isinstance(source, OverShares):
+        made["grid"] = source.grid.image
+        tree = several_nodes.over_shares(name, basis, source.grid, source.masks, changes)
+        remove_attributes(obj, group, changes)
+    else:
+        former = [] if node is None else _names(node.node_tree)
+        names = _written(obj, former, source, changes)
+        tree = several_nodes.on_mesh(name, basis, names)
     changes.may_add_to(group.nodes)
     changes.may_relink(group)
     if node is None:
         node = new_node(group, "basis", BASIS)
         node.node_tree = tree
-        _bridge(group, "states", "Color", node, "State")
     else:
-        former_tree = node.node_tree
-        ends = [link.to_socket for link in node.outputs["State"].links]
-        changes.set(node, "node_tree", tree)
-        for end in ends:
-            group.links.new(node.outputs["State"], end)
-        changes.at_the_end(partial(_remove_unused, former_tree))
+        _put(group, node, tree, changes)
+    for output, (role, former_output) in REPLACED.items():
+        _bridge(group, role, former_output, node, output)
     for row in of_role(group, "row"):
         group.links.new(row.outputs[0], node.inputs["Day"])
-    share = ShownMask(attribute=names[-1], weights=NUMBER)
-    show_mask(group, share, changes)
+    return _replaced(group, made, changes)
+
+
+def _put(group: Any, node: Any, tree: Any, changes: Changes) -> None:
+    """Have the node show another tree."""
+    former = node.node_tree
+    ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
+    changes.set(node, "node_tree", tree)
+    for name, end in ends:
+        group.links.new(node.outputs[name], end)
+    changes.at_the_end(partial(_remove_unused, former))
+
+
+def _replaced(
+    group: bpy.types.NodeTree, made: dict[str, bpy.types.Image], changes: Changes
+) -> dict[bpy.types.Image, bpy.types.Image]:
+    """Remember the images of a basis; by the former ones, what takes their place."""
+    replaced = {}
+    for role, key in IMAGE_KEYS.items():
+        former, image = group.get(key), made.get(role)
+        if image is None:
+            _forget(group, key, changes)
+            changes.at_the_end(partial(_remove_images, [former] if former else []))
+        else:
+            if former is not None:
+                replaced[former] = image
+            changes.set_key(group, key, image)
     return replaced
+
+
+def _forget(group: Any, key: str, changes: Changes) -> None:
+    if key in group:
+        changes.on_failure(group.__setitem__, key, group[key])
+        del group[key]
 
 
 def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes) -> None:
@@ -124,15 +165,12 @@ def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes)
     if is_shown(group):
         changes.may_relink(group)
         for node in of_role(group, "basis"):
-            for states in of_role(group, "states"):
-                for end in [link.to_socket for link in node.outputs["State"].links]:
-                    group.links.new(states.outputs["Color"], end)
+            for output, (role, own) in REPLACED.items():
+                _hand_back(group, node, output, role, own)
             changes.at_the_end(partial(_remove_node, group, node))
     images = made_images(group)
     for key in IMAGE_KEYS.values():
-        if key in group:
-            changes.on_failure(group.__setitem__, key, group[key])
-            del group[key]
+        _forget(group, key, changes)
     changes.at_the_end(partial(_remove_images, images))
     remove_attributes(obj, group, changes)
 
@@ -152,14 +190,14 @@ def remove_attributes(
 
 
 def _written(
-    obj: bpy.types.Object, former: Collection[str], sampled: SampledBasis, changes: Changes
+    obj: bpy.types.Object, former: Collection[str], sampled: OnMesh, changes: Changes
 ) -> list[str]:
     """Write coefficients, and last the share; the names of the attributes."""
     mesh = cast(bpy.types.Mesh, obj.data)
     active = mesh.attributes.active_color_name, mesh.attributes.default_color_name
     own, others = _own(mesh), _of_others(obj)
     free = [name for name in former if name in own and name not in others]
-    count = sampled.rank // VALUES_OF_ATTRIBUTE
+    count = sampled.coefficients.shape[1] // VALUES_OF_ATTRIBUTE
     names = []
     for number in range(count + 1):
         is_share = number == count
@@ -239,65 +277,19 @@ def _names(tree: bpy.types.NodeTree | None) -> list[str]:
         return []
 
 
-def _new_tree(name: str, sampled: SampledBasis, names: Sequence[str]) -> bpy.types.NodeTree:
-    """Nodes that add up the mean and the shapes by the coefficients."""
-    tree: Any = bpy.data.node_groups.new(name, "ShaderNodeTree")
-    tree[ATTRIBUTES_KEY] = json.dumps(list(names))
-    interface = tree.interface
-    interface.new_socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
-    interface.new_socket("State", in_out="OUTPUT", socket_type="NodeSocketVector")
-    given, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
-    given.location, end.location = (-1000, 0), (300 + 200 * sampled.rank, 0)
-    days = _image(tree, sampled.days, "Rows of days", (-800, 0))
-    tree.links.new(given.outputs["Day"], days.inputs["Vector"])
-    row = _node(tree, "ShaderNodeSeparateXYZ", "Row", (-500, 0))
-    tree.links.new(days.outputs["Color"], row.inputs[0])
-    total = _line(tree, sampled, row, 0).outputs["Color"]
-    for number, attribute in enumerate(names[:-1]):
-        place = (200, -400 - 400 * number)
-        read = _node(tree, "ShaderNodeAttribute", f"Coefficients {number + 1}", place)
-        read.attribute_type, read.attribute_name = "GEOMETRY", attribute
-        parts = _node(tree, "ShaderNodeSeparateXYZ", "Coefficients", (400, place[1]))
-        tree.links.new(read.outputs["Color"], parts.inputs[0])
-        for own, coefficient in enumerate((*parts.outputs, read.outputs["Alpha"])):
-            k = 1 + VALUES_OF_ATTRIBUTE * number + own
-            more = _node(tree, "ShaderNodeVectorMath", "Add shape", (200 + 200 * k, 0))
-            more.operation = "MULTIPLY_ADD"
-            tree.links.new(_line(tree, sampled, row, k).outputs["Color"], more.inputs[0])
-            tree.links.new(coefficient, more.inputs[1])
-            tree.links.new(total, more.inputs[2])
-            total = more.outputs[0]
-    tree.links.new(total, end.inputs["State"])
-    return tree
-
-
-def _line(tree: Any, sampled: SampledBasis, row: Any, k: int) -> Any:
-    """The mean, for k = 0, or a shape by day."""
-    place = _node(tree, "ShaderNodeCombineXYZ", f"Column {k}", (-300, 300 * k))
-    place.inputs["X"].default_value = (k + 0.5) / (sampled.rank + 1)
-    tree.links.new(row.outputs["Y"], place.inputs["Y"])
-    image = _image(tree, sampled.rows, f"Shape {k}" if k else "Mean", (-100, 300 * k))
-    tree.links.new(place.outputs[0], image.inputs["Vector"])
-    return image
-
-
-def _image(tree: Any, image: bpy.types.Image, label: str, place: tuple[int, int]) -> Any:
-    node = _node(tree, "ShaderNodeTexImage", label, place)
-    node.image, node.interpolation, node.extension = image, "Linear", "EXTEND"
-    return node
-
-
-def _node(tree: Any, kind: str, label: str, place: tuple[int, int]) -> Any:
-    node = tree.nodes.new(kind)
-    node.label, node.location, node[ROLE_KEY] = label, place, "basis"
-    return node
-
-
 def _bridge(group: Any, role: str, output: str, node: Any, own: str) -> None:
     """Link a node to all that nodes of a role are linked to."""
     for source in of_role(group, role):
         for end in [link.to_socket for link in source.outputs[output].links]:
             group.links.new(node.outputs[own], end)
+
+
+def _hand_back(group: Any, node: Any, output: str, role: str, own: str) -> None:
+    """Link nodes of a role to all that a node is linked to."""
+    given = node.outputs.get(output)  # earlier versions had no share
+    for end in [link.to_socket for link in given.links] if given else []:
+        for source in of_role(group, role):
+            group.links.new(source.outputs[own], end)
 
 
 def _remove_node(group: Any, node: Any) -> None:

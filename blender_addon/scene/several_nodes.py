@@ -1,0 +1,202 @@
+"""The group of nodes that computes the state of a skin from the shares of several masks.
+
+`blender_addon.model.basis` says what it adds up, and `blender_addon.model.grid` how it finds
+coefficients by shares.
+"""
+
+import itertools
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+
+from . import mask_nodes
+from .changes import Changes
+from .mask_nodes import ShownMask
+from .plan import ROLE_KEY
+
+ATTRIBUTES_KEY = "skin_tan_basis"
+"""Custom property of a mesh: names of the attributes that Apply made for several masks, as JSON.
+Of a group of nodes: those that it reads."""
+
+VALUES_OF_ATTRIBUTE, VALUES_OF_TEXEL = 4, 3
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """Images of a time basis.
+
+    Attributes
+    ----------
+    rank : int
+        Number of shapes.
+    rows, days : Image
+        Mean and shapes by day; where a day lies among the rows.
+    """
+
+    rank: int
+    rows: bpy.types.Image
+    days: bpy.types.Image
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Coefficients over shares.
+
+    Attributes
+    ----------
+    image : Image
+    steps : int
+        Of a share.
+    weights : sequence of float
+        Of the masks' shares in the share of all doses.
+    """
+
+    image: bpy.types.Image
+    steps: int
+    weights: Sequence[float]
+
+
+def on_mesh(name: str, basis: Basis, names: Sequence[str]) -> bpy.types.NodeTree:
+    """Nodes that read coefficients, and last the share of all doses, from attributes."""
+    made = _Tree(name, names)
+    coefficients: list[Any] = []
+    for number, attribute in enumerate(names[:-1]):
+        read = made.attribute(attribute, f"Coefficients {number + 1}", (200, -400 - 400 * number))
+        parts = made.parts(read.outputs["Color"], (400, -400 - 400 * number))
+        coefficients += [*parts, read.outputs["Alpha"]]
+    share = made.attribute(names[-1], "Share of all doses", (200, -800 - 400 * len(names)))
+    return made.finished(basis, coefficients, share.outputs["Fac"])
+
+
+def over_shares(
+    name: str, basis: Basis, grid: Grid, masks: Sequence[ShownMask], changes: Changes
+) -> bpy.types.NodeTree:
+    """Nodes that read masks, and coefficients by their shares."""
+    made = _Tree(name, ())
+    shares = []
+    for number, mask in enumerate(masks):
+        share = mask_nodes.added(made.tree, mask, changes, f"mask_{number}_")
+        shares.append(share.outputs[0])
+    whole = None
+    for share, weight in zip(shares, grid.weights, strict=True):
+        whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole or 0.0)
+    coefficients = [part for texel in _texels(made, basis, grid, shares) for part in texel]
+    return made.finished(basis, coefficients, whole)
+
+
+def _texels(made: "_Tree", basis: Basis, grid: Grid, shares: Sequence[Any]) -> Iterator[list[Any]]:
+    """Three coefficients at a time."""
+    steps, blocks = grid.steps, basis.rank // VALUES_OF_TEXEL
+    rows = steps ** (len(shares) - 1)
+    step = (steps - 1.0) / steps
+    across = made.math("MULTIPLY_ADD", "Column of the share", shares[0], step, 0.5 / steps)
+    up = made.math("MULTIPLY_ADD", "Row of the share", shares[1], (steps - 1.0) / rows, 0.5 / rows)
+    slices, corners = [], [(up, None)]
+    for number, share in enumerate(shares[2:]):
+        apart = steps ** (number + 1) / rows
+        place = made.math("MULTIPLY", "Slice of the share", share, steps - 1.0)
+        whole = made.math("MINIMUM", "Slice below", made.math("FLOOR", "Whole", place), steps - 2.0)
+        above = made.math("SUBTRACT", "Part of the slice above", place, whole)
+        below = made.math("SUBTRACT", "Part of the slice below", 1.0, above)
+        slices.append((whole, apart, below, above))
+    for whole, apart, below, above in slices:
+        moved = []
+        for (y, weight), (part, shift) in itertools.product(
+            corners, ((below, 0.0), (above, apart))
+        ):
+            start = made.math("MULTIPLY_ADD", "Row of the slice", whole, apart, y)
+            start = made.math("ADD", "Slice", start, shift) if shift else start
+            more = part if weight is None else made.math("MULTIPLY", "Part", weight, part)
+            moved.append((start, more))
+        corners = moved
+    for block in range(blocks):
+        x = made.math("MULTIPLY_ADD", "Column", across, 1.0 / blocks, block / blocks)
+        total = None
+        for y, weight in corners:
+            texel = made.image(grid.image, f"Coefficients {block + 1}", made.place(x, y))
+            total = texel if weight is None else made.sum(texel, weight, total)
+        yield list(made.parts(total, made.at))
+
+
+class _Tree:
+    """A group of nodes that is being made."""
+
+    def __init__(self, name: str, attributes: Sequence[str]) -> None:
+        self.tree: Any = bpy.data.node_groups.new(name, "ShaderNodeTree")
+        self.tree[ATTRIBUTES_KEY] = json.dumps(list(attributes))
+        self.at = (0, 0)
+
+    def finished(self, basis: Basis, coefficients: Sequence[Any], share: Any) -> Any:
+        """The tree, which adds up mean and shapes by the coefficients."""
+        tree, sockets = self.tree, self.tree.interface
+        sockets.new_socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
+        sockets.new_socket("State", in_out="OUTPUT", socket_type="NodeSocketVector")
+        sockets.new_socket("Share", in_out="OUTPUT", socket_type="NodeSocketFloat")
+        given, end = self.node("NodeGroupInput", ""), self.node("NodeGroupOutput", "")
+        day = self.image(basis.days, "Rows of days", given.outputs["Day"])
+        row = self.parts(day, (-500, 0))[1]
+        total = None
+        for k, coefficient in enumerate((None, *coefficients)):
+            x = (k + 0.5) / (basis.rank + 1)
+            shape = self.image(basis.rows, f"Shape {k}" if k else "Mean", self.place(x, row))
+            total = shape if total is None else self.sum(shape, coefficient, total)
+        tree.links.new(total, end.inputs["State"])
+        tree.links.new(share, end.inputs["Share"])
+        return tree
+
+    def node(self, kind: str, label: str, at: tuple[int, int] | None = None) -> Any:
+        node = self.tree.nodes.new(kind)
+        self.at = at or (self.at[0] + 200, self.at[1] - 40)
+        node.label, node.location, node[ROLE_KEY] = label, self.at, "basis"
+        return node
+
+    def attribute(self, name: str, label: str, at: tuple[int, int]) -> Any:
+        node = self.node("ShaderNodeAttribute", label, at)
+        node.attribute_type, node.attribute_name = "GEOMETRY", name
+        return node
+
+    def image(self, image: bpy.types.Image, label: str, place: Any) -> Any:
+        """The colour of an image at a place."""
+        node = self.node("ShaderNodeTexImage", label)
+        node.image, node.interpolation, node.extension = image, "Linear", "EXTEND"
+        self.tree.links.new(place, node.inputs["Vector"])
+        return node.outputs["Color"]
+
+    def place(self, x: Any, y: Any) -> Any:
+        """A place in an image."""
+        node = self.node("ShaderNodeCombineXYZ", "Place")
+        for end, value in zip(node.inputs, (x, y), strict=False):
+            self._give(end, value)
+        return node.outputs[0]
+
+    def parts(self, vector: Any, at: tuple[int, int]) -> Sequence[Any]:
+        node = self.node("ShaderNodeSeparateXYZ", "Parts", at)
+        self.tree.links.new(vector, node.inputs[0])
+        return list(node.outputs)
+
+    def math(self, operation: str, label: str, *values: Any) -> Any:
+        """A number from numbers and sockets."""
+        node = self.node("ShaderNodeMath", label)
+        node.operation = operation
+        for end, value in zip(node.inputs, values, strict=False):
+            self._give(end, value)
+        return node.outputs[0]
+
+    def sum(self, vector: Any, weight: Any, former: Any) -> Any:
+        """A weighted vector, and what is there before."""
+        node = self.node("ShaderNodeVectorMath", "Add")
+        node.operation = "MULTIPLY_ADD"
+        self.tree.links.new(vector, node.inputs[0])
+        self.tree.links.new(weight, node.inputs[1])
+        if former is not None:
+            self.tree.links.new(former, node.inputs[2])
+        return node.outputs[0]
+
+    def _give(self, end: Any, value: Any) -> None:
+        if isinstance(value, float | int):
+            end.default_value = value
+        else:
+            self.tree.links.new(value, end)

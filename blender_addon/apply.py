@@ -61,6 +61,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     """
     obj = tannable(obj)
     settings = settings_of(obj)
+    settings.name_masks()
     _require_masks(obj)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)

@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from . import live, ops, painting, props, translations, ui
+from . import live, ops, painting, props, renaming, translations, ui
 
 FOLDER = str(Path(__file__).parent)
 """With the presets that the add-on brings."""
@@ -26,11 +26,13 @@ def register():
     translations.register()
     live.register()
     painting.register()
+    renaming.register()
 
 
 def unregister():
     ui.forget_swatches()
     ui.forget_curve()
+    renaming.unregister()
     painting.unregister()
     live.unregister()
     translations.unregister()

@@ -65,6 +65,12 @@ def take_image(owner: Any, context: bpy.types.Context) -> None:
         show_mask(owner, context)
 
 
+def follow_image(owner: Any) -> None:
+    """Call a mask by its image's name where the image was renamed."""
+    if owner.image is not None and owner.image.name != owner.source:
+        owner.source = owner.image.name
+
+
 def take_attribute(settings: Any, context: bpy.types.Context) -> None:
     """Take the source by its former name."""
     if settings.mask.source != settings.mask_attribute:

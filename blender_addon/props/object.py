@@ -38,7 +38,7 @@ from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED
 from ..scene.masks import Mask
 from .biology import SkinTanBiology
 from .exposure import SkinTanExposure
-from .mask import SkinTanFilmMask, SkinTanMask, take_attribute, usable_names
+from .mask import SkinTanFilmMask, SkinTanMask, follow_image, take_attribute, usable_names
 from .material import SkinTanMaterial
 from .region import SkinTanRegion, is_shown
 from .skins import SKIN_ITEMS, USUAL_SKIN
@@ -318,6 +318,12 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     def shown_regions(self) -> list[SkinTanRegion]:
         """The regions that change anything, in their order."""
         return [region for region in self.regions if is_shown(region)]
+
+    def name_masks(self) -> None:
+        """Call masks by their images' names, which may have been renamed."""
+        owners = (*self.exposures, *self.regions)
+        for mask in (self.mask, self.film_mask, *(owner.mask for owner in owners)):
+            follow_image(mask)
 
     def masks(self) -> tuple[Mask, ...]:
         """The masks of the exposures that count, in their order."""

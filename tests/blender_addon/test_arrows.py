@@ -8,10 +8,11 @@ import pytest
 ADDON = Path(__file__).parents[2] / "blender_addon"
 SUBJECTS = {
     "__init__.py": {"registration"},
-    "registration.py": {"live", "ops", "painting", "props", "translations", "ui"},
+    "registration.py": {"live", "ops", "painting", "props", "renaming", "translations", "ui"},
     "translations.py": {"model"},
     "timers.py": set(),
     "painting.py": {"timers", "scene"},
+    "renaming.py": {"props"},
     "masking.py": {"scene", "props", "hylios.errors"},
     "timing.py": {"model", "scene", "props", "hylios.errors"},
     "applied.py": {"scene", "props"},

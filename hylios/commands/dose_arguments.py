@@ -3,7 +3,6 @@
 import argparse
 import sys
 from dataclasses import dataclass, replace
-from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,9 @@ from hylios.commands.shell import (
     note_estimates,
     number,
 )
-from hylios.errors import InputError, require_range
+from hylios.commands.sun_arguments import add_sun_arguments, asked_sun
+from hylios.errors import InputError
+from hylios.history import read_schedule
 from hylios.readers.spectrum import read_irradiance, read_transmittance
 from hylios.readers.text import name_of
 from hylios.skin import Skin
@@ -27,14 +28,12 @@ from hylios.sun.action_spectra import (
     MELANOGENESIS,
     TANNING_ACTIONS,
     USUAL_TANNING,
-    Absorptance,
 )
 from hylios.sun.doses import (
     Doses,
     joined,
     of_sed,
     of_spectrum,
-    of_sun,
     of_uv_index,
 )
 from hylios.sun.protection import (
@@ -48,23 +47,12 @@ from hylios.sun.protection import (
     water,
     window,
 )
-from hylios.sun.sky import ClearSky
-from hylios.sun.surroundings import GROUNDS, ground_albedo
 from hylios.tanning import (
     TYPICAL_PIGMENTATION,
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
 )
 from hylios.tissue import SPECTRA, Model
-
-USUAL_SKY = ClearSky()
-SKY = {
-    "ozone": ("DU", "ozone column in Dobson units"),
-    "altitude": ("M", "metres above the sea"),
-    "aerosol": ("DEPTH", "optical depth of the aerosol at 500 nm"),
-    "albedo": ("SHARE", "share of ultraviolet that the ground reflects; snow 0.8"),
-}
-"""Options that say what the air is like: `ClearSky`'s names, with their units and meaning."""
 
 EXPOSURES = """\
 Exposures of all kinds can be given together, and every kind repeatedly. Hours count from the
@@ -114,7 +102,6 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
         ("--dose", "HOUR:AMOUNT", "dose in SED, such as 30 or 30SED, or in MMD, such as 2.5MMD"),
         ("--uv-index", "HOUR:INDEX:HOURS", "hours at a UV index; an hour at index 1 is 0.9 SED"),
         ("--spectrum", "HOUR:FILE:SECONDS", "lamp: CSV of wavelength_nm,irradiance_w_m2_nm"),
-        ("--sun", "DATE:FROM-TO", "hours of a day such as 2025-06-21:10-16:30; needs --latitude"),
     ):
         exposures.add_argument(option, action="append", default=[], metavar=metavar, help=help_text)
     exposures.add_argument(
@@ -124,31 +111,15 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
         "parrish (the thesis's, PROVISIONAL), nearer for lamps of UVA, and the usual where "
         "melanogenesis_action is your own",
     )
-    sun = parser.add_argument_group("sun")
-    sun.add_argument(
-        "--start", metavar="DATE", help="day whose midnight is hour 0 (default: the first --sun)"
+    exposures.add_argument(
+        "--schedule",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="doses that `hylios dose` prints; - for standard input",
     )
-    for option, metavar, help_text in (
-        ("--latitude", "DEGREES", "latitude, north positive; --sun is in solar time, noon at 12"),
-        (
-            "--longitude",
-            "DEGREES",
-            "longitude, east positive; --sun is then in the time of a clock",
-        ),
-        ("--utc-offset", "HOURS", "of that clock, daylight saving included (default: 0)"),
-    ):
-        sun.add_argument(option, type=float, metavar=metavar, help=help_text)
-    for name, (metavar, help_text) in SKY.items():
-        usual = f"{help_text} ({getattr(USUAL_SKY, name):g})"
-        sun.add_argument(f"--{name}", type=float, metavar=metavar, help=usual)
-    grounds = ", ".join(f"{name} {ground.albedo:g}" for name, ground in GROUNDS.items())
-    sun.add_argument("--ground", choices=GROUNDS, help=f"in place of --albedo: {grounds}")
-    sun.add_argument(
-        "--cloud",
-        type=float,
-        metavar="SHARE",
-        help="of the sky that clouds cover (0); half of it leaves 0.84, all of it 0.31",
-    )
+    add_sun_arguments(parser)
     _add_protection_arguments(parser)
 
 
@@ -169,7 +140,6 @@ def _add_protection_arguments(parser: argparse.ArgumentParser) -> None:
         help="mg/cm^2 of sunscreen (default: 2); people apply 0.5 to 1",
     )
     over.add_argument("--upf", type=float, help="the protection factor of cloth; grey")
-
     over.add_argument("--glass", choices=GLASS, help="a pane between; window: most of the UVA")
     over.add_argument("--water", type=float, metavar="M", help="metres of water over the skin")
 
@@ -186,8 +156,11 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
     tanning = _tanning(arguments, of.model.spectra)
     parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in arguments.dose]
     parts += [of_uv_index(*_uv_index(text), over) for text in arguments.uv_index]
-    _require_place(arguments)
-    if arguments.sun or arguments.spectrum:
+    parts += [_scheduled(path, over) for path in arguments.schedule]
+    sun = asked_sun(arguments)
+    absorptance = None
+    has_spectrum = sun.has_spectrum or bool(arguments.spectrum)
+    if has_spectrum:
         from hylios.adding.absorptance import tabulated  # the light model: only for a spectrum
 
         absorptance = tabulated(of.skin.specimen, model=of.model)
@@ -195,25 +168,13 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
             of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra, tanning)
             for text in arguments.spectrum
         ]
-        parts += _of_sun(arguments, absorptance, over, of.model.spectra, tanning)
+    parts += sun.doses(over, absorptance=absorptance, spectra=of.model.spectra, tanning=tanning)
     doses = joined(parts)
     doses.exposures()  # whatever cannot be used is refused before anything is said
-    if arguments.sun or arguments.spectrum:
+    if has_spectrum:
         light = np.arange(FIRST_NM, LAST_NM + 1.0)
         note_estimates(of.model, light, (*SPECTRA, TANNING_ACTIONS[tanning]))
     return doses
-
-
-def _require_place(arguments: argparse.Namespace) -> None:
-    """Raise InputError where options of the sun are missing, or there without it."""
-    if not arguments.sun:
-        for option in ("start", "latitude", "longitude", "utc_offset", *SKY, "ground", "cloud"):
-            if getattr(arguments, option) is not None:
-                raise InputError(f"--{option.replace('_', '-')} is given without --sun.")
-    elif arguments.latitude is None:
-        raise InputError("--sun needs --latitude, in degrees, north positive.")
-    elif arguments.utc_offset is not None and arguments.longitude is None:
-        raise InputError("--utc-offset is given without --longitude.")
 
 
 def _tanning(arguments: argparse.Namespace, spectra: Spectra) -> str:
@@ -222,44 +183,6 @@ def _tanning(arguments: argparse.Namespace, spectra: Spectra) -> str:
         return arguments.tanning_action
     is_own = spectra[MELANOGENESIS] is not published_spectra()[MELANOGENESIS]
     return "parrish" if is_own else USUAL_TANNING
-
-
-def _of_sun(
-    arguments: argparse.Namespace,
-    absorptance: Absorptance,
-    over: Protection,
-    spectra: Spectra,
-    tanning: str,
-) -> list[Doses]:
-    """The doses of each `--sun`."""
-    suns = [_sun(text) for text in arguments.sun]
-    start = (
-        _date(arguments.start) if arguments.start else min((day for day, *_ in suns), default=None)
-    )
-    air = {name: getattr(arguments, name) for name in SKY}
-    if arguments.ground is not None:
-        if arguments.albedo is not None:
-            raise InputError("the ground is given as --ground and as --albedo; give only one.")
-        air["albedo"] = ground_albedo(arguments.ground)
-    sky = ClearSky(**{name: value for name, value in air.items() if value is not None})
-    return [
-        of_sun(
-            day,
-            first,
-            last,
-            arguments.latitude,
-            absorptance,
-            start=start,
-            longitude=arguments.longitude,
-            utc_offset=arguments.utc_offset or 0.0,
-            sky=sky,
-            cloud=arguments.cloud or 0.0,
-            protection=over,
-            spectra=spectra,
-            tanning=tanning,
-        )
-        for day, first, last in suns
-    ]
 
 
 def _protection(arguments: argparse.Namespace) -> Protection:
@@ -285,6 +208,13 @@ def _protection(arguments: argparse.Namespace) -> Protection:
     if arguments.water is not None:
         layers.append(water(arguments.water))
     return layered(layers)
+
+
+def _scheduled(path: Path, over: Protection) -> Doses:
+    """Doses of a schedule file; a meter's are those for the thickness."""
+    exposures, passed = read_schedule(path), over.of_sunlight()
+    thickening = passed * exposures.thickening_doses
+    return Doses(exposures.hours.astype(float), thickening, passed * exposures.doses, thickening)
 
 
 def _parts(text: str, count: int, what: str, expected: str) -> list[str]:
@@ -329,27 +259,3 @@ def _spectrum(text: str) -> tuple[float, np.ndarray, np.ndarray, float]:
         irradiance,
         number(seconds, "time of exposure"),
     )
-
-
-def _sun(text: str) -> tuple[date, float, float]:
-    """Day and hours of DATE:FROM-TO."""
-    day, hours = _parts(text, 2, "sun", "DATE:FROM-TO, such as 2025-06-21:10-16")
-    first, separator, last = hours.partition("-")
-    if not separator:
-        raise InputError(f"sun is {text!r}; expected DATE:FROM-TO, such as 2025-06-21:10-16.")
-    return _date(day), _clock(first), _clock(last)
-
-
-def _date(text: str) -> date:
-    try:
-        return date.fromisoformat(text)
-    except ValueError as error:
-        raise InputError(f"a date is {text!r}; expected YEAR-MONTH-DAY, as 2025-06-21.") from error
-
-
-def _clock(text: str) -> float:
-    """Hours of a text such as 10, 10.5 or 10:30."""
-    hour, separator, minute = text.partition(":")
-    minutes = number(minute, "minute of sun") if separator else 0.0
-    require_range("minute of sun", minutes, 0.0, 59.999)
-    return number(hour, "hour of sun") + minutes / 60.0

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from hylios.adding import spectrum as solve_spectrum
     from hylios.adding.absorptance import tabulated as ultraviolet_absorptance
+    from hylios.adding.redness import erythema
     from hylios.errors import InputError
     from hylios.lab.colour import Colour
     from hylios.lab.fit import fit_colour, fit_spectrum
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from hylios.sun.doses import of_uv_index as uv_index_doses
     from hylios.sun.protection import sunscreen
     from hylios.table import SkinTable, read_table
-    from hylios.tanning import Exposures, TanningHistory
+    from hylios.tanning import ErythemaDynamics, Exposures, TanningHistory
     from hylios.tissue import Model
     from hylios.transport.angular import brdf
     from hylios.transport.radial import profile
@@ -41,6 +42,7 @@ __version__ = "0.1.0"
 __all__ = [
     "SKIN_TYPES",
     "Colour",
+    "ErythemaDynamics",
     "Exposures",
     "InputError",
     "Model",
@@ -49,6 +51,7 @@ __all__ = [
     "Specimen",
     "TanningHistory",
     "brdf",
+    "erythema",
     "fit_colour",
     "fit_spectrum",
     "profile",
@@ -67,6 +70,7 @@ __all__ = [
 _HOMES = {
     "SKIN_TYPES": "hylios.skin.phototypes:PHOTOTYPES",
     "Colour": "hylios.lab.colour:Colour",
+    "ErythemaDynamics": "hylios.tanning:ErythemaDynamics",
     "Exposures": "hylios.tanning:Exposures",
     "InputError": "hylios.errors:InputError",
     "Model": "hylios.tissue:Model",
@@ -75,6 +79,7 @@ _HOMES = {
     "Specimen": "hylios.skin.specimen:Specimen",
     "TanningHistory": "hylios.tanning:TanningHistory",
     "brdf": "hylios.transport.angular:brdf",
+    "erythema": "hylios.adding.redness:erythema",
     "fit_colour": "hylios.lab.fit:fit_colour",
     "fit_spectrum": "hylios.lab.fit:fit_spectrum",
     "profile": "hylios.transport.radial:profile",

@@ -6,11 +6,9 @@ from types import MappingProxyType
 
 from hylios.errors import require_range
 from hylios.skin.physiology import MOST_EPIDERMAL_MELANIN, PHYSIOLOGY
-from hylios.skin.specimen import EPIDERMIS, Specimen
+from hylios.skin.specimen import EPIDERMIS, LAYERS, Specimen
 
-THICKNESSES = tuple(
-    f"{layer}_thickness" for layer in ("corneum", *EPIDERMIS, "papillary", "reticular")
-)
+THICKNESSES = tuple(f"{layer}_thickness" for layer in LAYERS)
 MELANIN = tuple(
     f"{layer}_{form}" for layer in EPIDERMIS for form in ("melanosomes", "colloidal_melanin")
 )

@@ -1,7 +1,7 @@
 """Skin specimens: the parameters of tables 6.1 and 6.2 of the thesis."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, Field, asdict, dataclass, field, fields, replace
 from functools import cache
 from importlib.resources import files
@@ -15,6 +15,9 @@ from hylios.errors import InputError, require_range
 from hylios.skin.physiology import MOST_EPIDERMAL_MELANIN, PHYSIOLOGY
 
 EPIDERMIS = ("granulosum", "spinosum", "basale")
+LAYERS = ("corneum", *EPIDERMIS, "papillary", "reticular")
+"""Layers of a specimen, from the surface down."""
+
 ARRANGEMENTS = ("individual", "complexes", "compact_complexes")
 MELANOSOME_SCALE = {"granulosum": 0.25, "spinosum": 0.5, "basale": 1.0}
 """Size of the melanosomes of a layer relative to table 6.1 (degradation upwards, section 6.1.1)."""
@@ -270,6 +273,7 @@ def tanned(
     melanin: np.ndarray,
     thickness: float,
     untanned: np.ndarray | None = None,
+    thickened: Sequence[str] = LAYERS,
 ) -> Specimen:
     """The specimen in a tanning state (equation 5.16, sections 5.2.2 and 5.3).
 
@@ -293,6 +297,9 @@ def tanned(
         Thickness relative to the start.
     untanned : (3,) array, optional
         The state's melanin at which the specimen is what it is; 5.16 as printed by default.
+    thickened : sequence of str
+        Layers whose thickness is scaled, those of the epidermis among them; all by default, as in
+        5.29.
 
     Raises
     ------
@@ -303,7 +310,7 @@ def tanned(
     content = np.minimum(_content(specimen, melanin, thickness, untanned), 1.0)
     changes = {
         f"{layer}_thickness": getattr(specimen, f"{layer}_thickness") * thickness
-        for layer in ("corneum", *EPIDERMIS, "papillary", "reticular")
+        for layer in thickened
     }
     for layer, percent in zip(reversed(EPIDERMIS), 100.0 * content, strict=True):
         inside = percent * _melanosome_share(specimen, layer)

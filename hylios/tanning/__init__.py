@@ -13,6 +13,7 @@ from hylios.tanning.dynamics import (
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
 )
+from hylios.tanning.erythema import Burns, ErythemaDynamics
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
 from hylios.tanning.kinetics import KINETICS, Kinetics
 from hylios.tanning.measured import MeasuredDynamics
@@ -26,6 +27,8 @@ __all__ = [
     "LONGEST_HOURS",
     "PIGMENTATIONS",
     "TYPICAL_PIGMENTATION",
+    "Burns",
+    "ErythemaDynamics",
     "Exposures",
     "Kinetics",
     "MeasuredDynamics",

@@ -56,8 +56,8 @@ def accumulated(decay: np.ndarray | float, added: np.ndarray) -> np.ndarray:
 
     Parameters
     ----------
-    decay : float, or (BLOCK, blocks, 1 or H) array
-        One for all steps and histories, or one for every step.
+    decay : float, (H,) array, or (BLOCK, blocks, 1 or H) array
+        One for all steps and histories, one for every history, or one for every step.
     added : (BLOCK, blocks, H) array
         Laid out in blocks.
 
@@ -66,8 +66,9 @@ def accumulated(decay: np.ndarray | float, added: np.ndarray) -> np.ndarray:
     (BLOCK, blocks, H) array
         Of the dtype of `added`.
     """
-    constant = np.ndim(decay) == 0
-    decays = np.full((BLOCK, 1, 1), decay, added.dtype) if constant else np.asarray(decay)
+    constant = np.ndim(decay) < 3
+    own = np.reshape(decay, (1, 1, -1)) if constant else decay
+    decays = np.repeat(np.asarray(own, added.dtype), BLOCK, 0) if constant else np.asarray(own)
     result = np.empty_like(added)
     result[0] = added[0]
     for before, now, decaying, more in zip(
@@ -79,7 +80,7 @@ def accumulated(decay: np.ndarray | float, added: np.ndarray) -> np.ndarray:
     if blocks == 1:
         return result
     left = np.multiply.accumulate(decays)
-    at_ends = float(left[-1, 0, 0]) if constant else in_blocks(left[-1])
+    at_ends = left[-1, 0] if constant else in_blocks(left[-1])
     handed_on = in_a_row(accumulated(at_ends, in_blocks(result[-1])), blocks)
     # The first block is handed nothing.
     result[:, 1:] += (left if constant else left[:, 1:]) * handed_on[:-1]

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.tanning.departures import melanin_departures, thickness_departure
 from hylios.tanning.dynamics import ThicknessDynamics
+from hylios.tanning.erythema import Burns
 from hylios.tanning.exposures import LONGEST_HOURS, Exposures, require_exposures
 from hylios.tanning.kinetics import Kinetics
 from hylios.tanning.recurrence import accumulated, in_a_row, in_blocks, previous
@@ -92,11 +93,13 @@ def states_of_shares(
     shares: ArrayLike,
     marks: NDArray[np.int_],
     dtype: DTypeLike = float,
+    burns: Burns | None = None,
 ) -> NDArray[np.floating]:
-    """States (T, S, 4) of places at uneven hours, as `states_at` gives them.
+    """States (T, S, 4) of places at uneven hours, or (T, S, 5), as `states_at` gives them.
 
     Energy and signals are exact. The responses run straight from one mark to the next, and so a
     tan does whose marks lie too far apart; with marks at every hour this is the model itself.
+    Blood is exact at every mark, but for the tan that an exposure between two marks meets.
 
     Parameters
     ----------
@@ -108,6 +111,8 @@ def states_of_shares(
         Hours, the first of them 0; none beyond those of the energies.
     dtype : data-type
         float32 is twice as fast, and leaves 1e-5 of a state.
+    burns : Burns, optional
+        How all the doses redden the skin (`Burns.of`), of as many kinds; not at all by default.
 
     Raises
     ------
@@ -134,7 +139,27 @@ def states_of_shares(
     )
     states = np.stack([in_a_row(curve, len(marks)) for curve in curves], axis=-1)
     make_relative(states, melanin.dynamics, thickness.dynamics)
-    return states
+    if burns is None:
+        return states
+    blood = _blood(burns.until(int(marks[-1])), parts.astype(dtype), states, marks)
+    return np.concatenate([states, blood[..., None]], axis=-1)
+
+
+def _blood(
+    burns: Burns, shares: np.ndarray, states: np.ndarray, marks: np.ndarray
+) -> NDArray[np.floating]:
+    """Blood (T, S) of places with shares (S, M), which have states (T, S, 4) at the marks."""
+    doses = burns.doses.T.astype(shares.dtype) @ shares.T
+    after = np.searchsorted(marks, burns.hours)
+    before = np.maximum(after - 1, 0)
+    since = np.maximum(marks[after] - marks[before], 1)
+    fraction = ((burns.hours - marks[before]) / since)[:, None].astype(shares.dtype)
+    fraction[after == before] = 0.0
+    melanin, thickness = (
+        told[before] * (1.0 - fraction) + told[after] * fraction
+        for told in (states[..., :3].sum(axis=-1), states[..., 3])
+    )
+    return burns.blood(doses, melanin, thickness, marks)
 
 
 def responses_of_shares(

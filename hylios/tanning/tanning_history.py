@@ -17,6 +17,8 @@ class TanningHistory:
         Melanin of basale, spinosum, granulosum relative to the total at hour 0.
     thickness : (..., T) float array
         Thickness of the skin relative to hour 0 (5.29).
+    blood : (..., T) float array or None
+        Blood of the dermis relative to hour 0, where redness was simulated.
 
     Examples
     --------
@@ -29,6 +31,13 @@ class TanningHistory:
     hours: NDArray[np.floating]
     melanin: NDArray[np.float64]
     thickness: NDArray[np.float64]
+    blood: NDArray[np.float64] | None = None
+
+    @classmethod
+    def of(cls, hours: NDArray[np.floating], states: NDArray[np.float64]) -> "TanningHistory":
+        """From states (..., T, 4), or (..., T, 5) with the blood, at hours (T,)."""
+        blood = states[..., 4] if states.shape[-1] > 4 else None
+        return cls(hours, states[..., :3], states[..., 3], blood)
 
     @property
     def total(self) -> NDArray[np.float64]:
@@ -37,5 +46,6 @@ class TanningHistory:
 
     @property
     def states(self) -> NDArray[np.float64]:
-        """Melanin of the three layers and thickness side by side, shape (..., T, 4)."""
-        return np.concatenate([self.melanin, self.thickness[..., None]], axis=-1)
+        """Melanin of the three layers, thickness and any blood side by side (..., T, 4 or 5)."""
+        others = [self.thickness] if self.blood is None else [self.thickness, self.blood]
+        return np.concatenate([self.melanin, *(other[..., None] for other in others)], axis=-1)

@@ -5,7 +5,7 @@ Coefficients in 1/cm.
 
 import numpy as np
 
-from hylios.skin.specimen import EPIDERMIS, Specimen
+from hylios.skin.specimen import EPIDERMIS, LAYERS, Specimen
 from hylios.tissue.model import Model
 
 HEMOGLOBIN_WEIGHT, BETA_CAROTENE_WEIGHT, BILIRUBIN_WEIGHT = 66500.0, 537.0, 585.0
@@ -33,8 +33,8 @@ SPECTRA = (
 )
 """Spectra of `hylios.spectra` that the layers of skin are made from."""
 
-PARTS = ("corneum", *EPIDERMIS, "papillary", "reticular")
-"""Layers of a specimen, from the surface down."""
+PARTS = LAYERS
+"""Layers of a stack, from the surface down."""
 
 ABSORBERS = (
     "water",

@@ -146,10 +146,10 @@ def states_of_shares(
 
 
 def _blood(
-    burns: Burns, shares: np.ndarray, states: np.ndarray, marks: np.ndarray
+    burns: Burns, shares: NDArray[np.floating], states: np.ndarray, marks: np.ndarray
 ) -> NDArray[np.floating]:
     """Blood (T, S) of places with shares (S, M), which have states (T, S, 4) at the marks."""
-    doses = burns.doses.T.astype(shares.dtype) @ shares.T
+    doses = np.matmul(burns.doses.T.astype(shares.dtype), shares.T)
     after = np.searchsorted(marks, burns.hours)
     before = np.maximum(after - 1, 0)
     since = np.maximum(marks[after] - marks[before], 1)

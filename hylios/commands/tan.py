@@ -1,8 +1,10 @@
-"""`hylios tan`: melanin and thickness over time after doses of ultraviolet, as CSV."""
+"""`hylios tan`: melanin, thickness and blood over time after doses of ultraviolet, as CSV."""
 
 import argparse
+import sys
 from itertools import chain
 
+from hylios.adding.redness import erythema
 from hylios.commands.dose_arguments import (
     add_exposure_arguments,
     add_skin_in_light_arguments,
@@ -15,6 +17,8 @@ from hylios.tanning import simulate_in_parts
 
 COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
 
+ESTIMATE = "note: redness is an estimate but for the hours and doses to which it was fitted"
+
 
 def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
@@ -22,6 +26,12 @@ def add_to(commands) -> None:
     parser.set_defaults(command=run)
     add_skin_in_light_arguments(parser)
     add_kinetics_argument(parser)
+    parser.add_argument(
+        "--erythema",
+        action="store_true",
+        help="print the blood of the dermis too, relative to hour 0: how red skin gets after doses "
+        "beyond its MED",
+    )
     add_exposure_arguments(parser)
     parser.add_argument("--hours", type=int, default=720, help="last hour (default: 720)")
     parser.add_argument(
@@ -35,20 +45,24 @@ def run(arguments: argparse.Namespace) -> None:
     """Simulate and print, a part after the other: a century by minutes has 53 million rows."""
     of = skin_in_light(arguments)
     step = _step(arguments.step)
+    reddening = erythema(of.skin, of.model) if arguments.erythema else None
     parts = simulate_in_parts(
         chosen_doses(arguments, of).exposures(),
         of.skin.melanin_kinetics,
         mmd=of.skin.mmd,
         med=of.skin.med,
         hours=arguments.hours,
+        erythema=reddening,
         step=step,
     )
     first = next(parts)
-    print(",".join(COLUMNS))
+    if reddening is not None:
+        print(ESTIMATE, file=sys.stderr)
+    print(",".join(COLUMNS if reddening is None else (*COLUMNS, "blood")))
     with progress("tan", int(arguments.hours / step) + 1, " rows") as advance:
         for part in chain([first], parts):
-            columns = (part.hours, *part.melanin.T, part.total, part.thickness)
-            print_rows(columns, digits=10)
+            columns = [part.hours, *part.melanin.T, part.total, part.thickness]
+            print_rows(columns if part.blood is None else [*columns, part.blood], digits=10)
             advance(part.hours.size)
 
 

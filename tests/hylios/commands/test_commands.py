@@ -70,6 +70,19 @@ def test_tan_by_the_kinetics_measured_in_people(capsys):
     assert float(last[1]["total"]) > 1.005 and last[0]["thickness"] == last[1]["thickness"]
 
 
+def test_tan_prints_the_blood_of_a_burn(capsys):
+    """All else stays; 1 MED of type II is 1.8 times the blood a day later, less on tanned skin."""
+    command = "tan --skin II --dose 0:2.77 --hours 24 --step 24".split()
+    assert main(command) == 0
+    usual = rows(capsys.readouterr().out)
+    assert main([*command, "--erythema"]) == 0
+    told = capsys.readouterr()
+    burnt = rows(told.out)
+    assert [{**row, "blood": own["blood"]} for row, own in zip(usual, burnt, strict=True)] == burnt
+    assert burnt[0]["blood"] == "1" and float(burnt[1]["blood"]) == pytest.approx(1.8, abs=0.05)
+    assert "redness is an estimate" in told.err
+
+
 @pytest.mark.parametrize("name", ["S4", "VI", "III"])
 def test_a_specimen_written_to_a_file_tans_as_by_its_name(capsys, tmp_path, name):
     assert main(["specimen", name, "--toml"]) == 0

@@ -88,8 +88,8 @@ def show(
     if isinstance(made, AtPoints):
         return several.show(obj, group, shapes, made.on_mesh, changes)
     name = f"Skin Tan Mask Shares {obj.name}"
-    image = images.packed_image(name, made.image, is_colour=False)
-    grid = several_nodes.Grid(image, made.steps, [float(weight) for weight in told.weights])
+    made_images = [images.packed_image(name, own, is_colour=False) for own in made.images]
+    grid = several_nodes.Grid(made_images, made.steps, [float(weight) for weight in told.weights])
     shown = [shown_mask(obj, mask, changes) for mask in _distinct(obj)]
     return several.show(obj, group, shapes, several.OverShares(grid, shown), changes)
 

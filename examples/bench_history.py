@@ -100,15 +100,17 @@ def _report_grid(
     def work():
         given = grid.shares_of_grid(masks, steps)
         made = basis.basis(received, given, skin.dynamics, precision=precision.basis, **span)[0]
-        return made, grid.image_of(made.coefficients, masks, steps)
+        return made, grid.images_of(made.coefficients, masks, steps)
 
-    (made, image), milliseconds = _timed(work)
+    (made, images), milliseconds = _timed(work)
     hours = random.integers(0, 24 * DAYS, PLACES)
     for where, faces, weights in _places(random):
         between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
-        seen = basis.shown(made, grid.coefficients_at(image, between), hours / 24.0)
+        seen = basis.shown(made, grid.coefficients_at(images, between), hours / 24.0)
         errors = _errors(skin, seen, received, between, hours)
-        _print(f"{name}, {where}", milliseconds, errors, f"image {image.shape[:2]}")
+        _print(
+            f"{name}, {where}", milliseconds, errors, f"{len(images)} images {images[0].shape[:2]}"
+        )
 
 
 def _places(random) -> tuple[tuple[str, NDArray, NDArray], ...]:

@@ -1,23 +1,27 @@
-"""Coefficients of a time basis over the shares of a few masks, as an image that a shader reads.
+"""Coefficients of a time basis over the shares of a few masks, as images that a shader reads.
 
 A shader that reads the shares themselves has them right everywhere: inside faces, and at every
 texel of a mask that is an image. The coefficients are given at even steps of every share, and run
 straight between them.
 
-What a shader computes from shares s_1 to s_M, with L = `steps` and B = a third of the rank:
+An image holds three coefficients. What a shader computes from shares s_1 to s_3 of which each has L
+steps, for b = 0 to a third of the rank:
 
-1. the slice z_m = floor(s_m (L - 1)), L - 2 at most, of every share from the third on, and what is
-   left of it, f_m.
-2. y = sum of z_m L^(m - 3) / L^(M - 2) + (.5 + s_2 (L - 1)) / L^(M - 1).
-3. for b = 0 to B - 1: coefficients 3 b + 1 to 3 b + 3 are red, green and blue of the image sampled
-   linearly at x = (b + (.5 + s_1 (L - 1)) / L) / B and y, and of the next slices too, which are
-   mixed by the f_m.
+1. of two masks: coefficients 3 b + 1 to 3 b + 3 are red, green and blue of image b, sampled
+   linearly at x = (.5 + s_1 (L - 1)) / L and y = (.5 + s_2 (L - 1)) / L.
+2. of three masks: the slice z = floor(s_3 (L - 1)), L - 2 at most, and what is left of it, f.
+   Slices lie above one another, each second one upside down. So the image is sampled at
+   y = (z + (.5 + t (L - 1)) / L) / L, where t is s_2, or 1 - s_2 if z is odd; then in slice z + 1;
+   and the two are mixed by f.
+
+Where shares change fast from pixel to pixel EEVEE takes the mean of neighbouring texels. So they
+are those of neighbouring shares everywhere in an image.
 
 `coefficients_at` is the same in numpy.
 """
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,6 +31,9 @@ from .basis import DRAG, FULL, BasisPrecision
 
 CHANNELS = 3
 """Coefficients of a texel."""
+
+SLICED = 2
+"""With more masks an image has slices."""
 
 RANKS = (12, 15)
 
@@ -65,20 +72,22 @@ def shares_of_grid(masks: int, steps: int) -> NDArray[np.float64]:
     return np.stack(axes[::-1], axis=-1).reshape(-1, masks)
 
 
-def image_of(coefficients: NDArray, masks: int, steps: int) -> NDArray[np.float32]:
-    """The image (rows, columns, 3) of coefficients (steps^masks, rank)."""
-    blocks = coefficients.shape[1] // CHANNELS
-    texels = np.asarray(coefficients, np.float32).reshape(-1, steps, blocks, CHANNELS)
-    return np.swapaxes(texels, 1, 2).reshape(steps ** (masks - 1), -1, CHANNELS)
+def images_of(coefficients: NDArray, masks: int, steps: int) -> list[NDArray[np.float32]]:
+    """Images (rows, steps, 3) of coefficients (steps^masks, rank), the rank a multiple of 3."""
+    table = np.array(coefficients, np.float32).reshape(-1, steps, steps, coefficients.shape[1])
+    if masks > SLICED:
+        table[1::2] = table[1::2, ::-1]
+    rows = table.reshape(-1, *table.shape[2:])
+    return [rows[..., b : b + CHANNELS] for b in range(0, rows.shape[-1], CHANNELS)]
 
 
-def coefficients_at(image: NDArray, shares: NDArray) -> NDArray[np.float64]:
+def coefficients_at(images: Sequence[NDArray], shares: NDArray) -> NDArray[np.float64]:
     """Coefficients (N, rank) that a shader has at shares (N, masks)."""
-    masks = shares.shape[1]
-    steps = round(len(image) ** (1.0 / (masks - 1)))
-    blocks = image.shape[1] // steps
-    table = image.reshape(*[steps] * (masks - 1), blocks, steps, CHANNELS)
-    table = np.moveaxis(table, -2, masks - 1).reshape(*[steps] * masks, -1)
+    masks, steps = shares.shape[1], images[0].shape[1]
+    table = np.concatenate(images, axis=-1).reshape(-1, steps, steps, len(images) * CHANNELS)
+    if masks > SLICED:
+        table[1::2] = table[1::2, ::-1]
+    table = table.reshape(*[steps] * masks, -1)
     place = shares[:, ::-1] * (steps - 1.0)
     low = np.clip(place.astype(int), 0, steps - 2)
     part = place - low

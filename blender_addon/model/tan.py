@@ -17,7 +17,7 @@ from . import catalogue, doses
 from .basis import FULL as FULL_BASIS
 from .basis import Basis, BasisPrecision, basis
 from .biology import table_with
-from .grid import DRAG_GRID, FULL_GRID, image_of, shares_of_grid
+from .grid import DRAG_GRID, FULL_GRID, images_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
 from .settings import Exposure, TanSettings, check_days
@@ -191,19 +191,19 @@ def basis_of(
 
 @dataclass(frozen=True, eq=False)
 class BasisOverShares:
-    """A basis whose coefficients are an image over the shares of its masks (`grid`).
+    """A basis whose coefficients are images over the shares of its masks (`grid`).
 
     Attributes
     ----------
     basis : Basis
         At the steps of the grid.
-    image : (rows, columns, 3) float32 array
+    images : list of (rows, steps, 3) float32 arrays
     steps : int
         Of a share.
     """
 
     basis: Basis
-    image: NDArray[np.float32]
+    images: list[NDArray[np.float32]]
     steps: int
 
 
@@ -231,7 +231,7 @@ def _over_shares(
     masks, precision = len(set(which)), DRAG_GRID if rough else FULL_GRID
     steps = precision.steps[masks]
     made = basis_of(settings, which, shares_of_grid(masks, steps), precision.basis)
-    return BasisOverShares(made, image_of(made.coefficients, masks, steps), steps)
+    return BasisOverShares(made, images_of(made.coefficients, masks, steps), steps)
 
 
 def _require_held(table: SkinTable, states: NDArray) -> None:

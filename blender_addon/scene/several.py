@@ -27,10 +27,12 @@ from .vertex_groups import new_attribute, remove_attribute
 
 PREFIX = "skin_tan_basis_"
 
+GRID = "grid_{}"
+"""Roles of the images over shares."""
+
 IMAGE_KEYS = {
-    "rows": "skin_tan_basis_rows",
-    "days": "skin_tan_basis_days",
-    "grid": "skin_tan_basis_grid",
+    role: f"skin_tan_basis_{role}"
+    for role in ("rows", "days", *(GRID.format(block) for block in range(5)))
 }
 """Custom properties of a tan's group: the images of its basis."""
 
@@ -106,7 +108,7 @@ def show(
     name = f"Skin Tan Masks {obj.name}"
     made = {"rows": basis.rows, "days": basis.days}
     if isinstance(source, OverShares):
-        made["grid"] = source.grid.image
+        made |= {GRID.format(block): image for block, image in enumerate(source.grid.images)}
         tree = several_nodes.over_shares(name, basis, source.grid, source.masks, changes)
         remove_attributes(obj, group, changes)
     else:

@@ -4,7 +4,6 @@
 coefficients by shares.
 """
 
-import itertools
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -21,7 +20,10 @@ ATTRIBUTES_KEY = "skin_tan_basis"
 """Custom property of a mesh: names of the attributes that Apply made for several masks, as JSON.
 Of a group of nodes: those that it reads."""
 
-VALUES_OF_ATTRIBUTE, VALUES_OF_TEXEL = 4, 3
+VALUES_OF_ATTRIBUTE = 4
+
+SLICED = 2
+"""With more masks images have slices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,14 +49,15 @@ class Grid:
 
     Attributes
     ----------
-    image : Image
+    images : sequence of Image
+        Of three coefficients each.
     steps : int
         Of a share.
     weights : sequence of float
         Of the masks' shares in the share of all doses.
     """
 
-    image: bpy.types.Image
+    images: Sequence[bpy.types.Image]
     steps: int
     weights: Sequence[float]
 
@@ -83,42 +86,55 @@ def over_shares(
     whole = None
     for share, weight in zip(shares, grid.weights, strict=True):
         whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole or 0.0)
-    coefficients = [part for texel in _texels(made, basis, grid, shares) for part in texel]
+    coefficients = [part for texel in _texels(made, grid, shares) for part in texel]
     return made.finished(basis, coefficients, whole)
 
 
-def _texels(made: "_Tree", basis: Basis, grid: Grid, shares: Sequence[Any]) -> Iterator[list[Any]]:
+def _texels(made: "_Tree", grid: Grid, shares: Sequence[Any]) -> Iterator[Sequence[Any]]:
     """Three coefficients at a time."""
-    steps, blocks = grid.steps, basis.rank // VALUES_OF_TEXEL
-    rows = steps ** (len(shares) - 1)
-    step = (steps - 1.0) / steps
-    across = made.math("MULTIPLY_ADD", "Column of the share", shares[0], step, 0.5 / steps)
-    up = made.math("MULTIPLY_ADD", "Row of the share", shares[1], (steps - 1.0) / rows, 0.5 / rows)
-    slices, corners = [], [(up, None)]
-    for number, share in enumerate(shares[2:]):
-        apart = steps ** (number + 1) / rows
-        place = made.math("MULTIPLY", "Slice of the share", share, steps - 1.0)
-        whole = made.math("MINIMUM", "Slice below", made.math("FLOOR", "Whole", place), steps - 2.0)
-        above = made.math("SUBTRACT", "Part of the slice above", place, whole)
-        below = made.math("SUBTRACT", "Part of the slice below", 1.0, above)
-        slices.append((whole, apart, below, above))
-    for whole, apart, below, above in slices:
-        moved = []
-        for (y, weight), (part, shift) in itertools.product(
-            corners, ((below, 0.0), (above, apart))
-        ):
-            start = made.math("MULTIPLY_ADD", "Row of the slice", whole, apart, y)
-            start = made.math("ADD", "Slice", start, shift) if shift else start
-            more = part if weight is None else made.math("MULTIPLY", "Part", weight, part)
-            moved.append((start, more))
-        corners = moved
-    for block in range(blocks):
-        x = made.math("MULTIPLY_ADD", "Column", across, 1.0 / blocks, block / blocks)
+    steps = grid.steps
+    x = made.math(
+        "MULTIPLY_ADD", "Column of the share", shares[0], (steps - 1.0) / steps, 0.5 / steps
+    )
+    sliced = len(shares) > SLICED
+    taps = _slices(made, steps, shares[1], shares[2]) if sliced else [(shares[1], 0.0, None)]
+    slices = steps if sliced else 1
+    step = (steps - 1.0) / (steps * slices)
+    places = []
+    for share, number, weight in taps:
+        start = 0.5 / (steps * slices)
+        if sliced:
+            start = made.math("MULTIPLY_ADD", "Row of the slice", number, 1.0 / slices, start)
+        y = made.math("MULTIPLY_ADD", "Row of the share", share, step, start)
+        places.append((made.place(x, y), weight))
+    for number, image in enumerate(grid.images):
         total = None
-        for y, weight in corners:
-            texel = made.image(grid.image, f"Coefficients {block + 1}", made.place(x, y))
+        for place, weight in places:
+            texel = made.image(image, f"Coefficients {3 * number + 1} to {3 * number + 3}", place)
             total = texel if weight is None else made.sum(texel, weight, total)
-        yield list(made.parts(total, made.at))
+        yield made.parts(total, made.at)
+
+
+def _slices(made: "_Tree", steps: int, share: Any, across: Any) -> list[tuple[Any, Any, Any]]:
+    """Of the slices below and above: the share in it, its number, its weight."""
+    place = made.math("MULTIPLY", "Slice of the share", across, steps - 1.0)
+    whole = made.math("FLOOR", "Slice", place)
+    below = made.math("MINIMUM", "Slice below", whole, steps - 2.0)
+    part = made.math("SUBTRACT", "Part of the slice above", place, below)
+    rest = made.math("SUBTRACT", "Part of the slice below", 1.0, part)
+    odd = made.math("MODULO", "Whether it is upside down", below, 2.0)
+    other = made.math("SUBTRACT", "Whether the one above is", 1.0, odd)
+    above = made.math("ADD", "Slice above", below, 1.0)
+    return [
+        (_turned(made, odd, share), below, rest),
+        (_turned(made, other, share), above, part),
+    ]
+
+
+def _turned(made: "_Tree", odd: Any, share: Any) -> Any:
+    """The share, or what it lacks of 1 where a slice is upside down."""
+    less = made.math("SUBTRACT", "Upside down", odd, share)
+    return made.math("ABSOLUTE", "Share in the slice", less)
 
 
 class _Tree:

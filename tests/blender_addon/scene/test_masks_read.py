@@ -9,7 +9,7 @@ from masked_body import NAMES, body_of_masks, expected, rendered
 from scenes import apply, tan_group
 
 from blender_addon.model import tan as tans
-from blender_addon.model.grid import FULL_GRID
+from blender_addon.model.grid import FULL_GRID, coefficients_at, images_of, shares_of_grid
 from hylios.colour_difference import ciede2000, lab
 
 SHARES = np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0.35, 1], [1, 0.8]])
@@ -142,6 +142,17 @@ def test_three_masks(table_path, tmp_path):
     apply(body)
     bpy.context.scene.frame_set(FRAME)
     assert errors(body, rendered(body, tmp_path)[1, 1::3], shares).max() < 0.25
+
+
+@pytest.mark.parametrize("masks", [2, 3])
+def test_neighbours_in_an_image_are_of_neighbouring_shares(masks):
+    """An engine that takes the mean of texels, as from far away, mixes no tans that are unlike."""
+    shares = shares_of_grid(masks, 5)
+    first, *_ = images_of(np.pad(shares, ((0, 0), (0, 3 - masks))), masks, 5)
+    for axis in (0, 1):
+        assert np.abs(np.diff(first, axis=axis)).sum(axis=-1) == pytest.approx(0.25)
+    places = np.random.default_rng(5).random((50, masks))
+    assert coefficients_at([first], places)[:, :masks] == pytest.approx(places)
 
 
 def test_it_renders_the_same_after_saving_without_the_add_on(body, tmp_path):

@@ -293,7 +293,7 @@ def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
 def _on_own_masks(settings: SkinTanSettings) -> list[str]:
     """Which exposures are to have a mask of their own and have none."""
     without = [
-        repr(exposure.name) if exposure.name else f"number {number}"
+        repr(exposure.name) if exposure.name else f"exposure {number}"
         for number, exposure in enumerate(settings.exposures, 1)
         if exposure.enabled and exposure.own_mask and not masks.Mask.of(exposure.mask)
     ]

@@ -50,9 +50,10 @@ def take_off(obj: bpy.types.Object, changes: Changes) -> list[str]:
     shown = slots.materials_of(obj)
     tanned = [block for block in shown if any(tan_groups(tree_of(block))) or recolour.is_in(block)]
     own = settings.material
-    tanned += _left(obj, group, tanned, users)
+    left = _left(obj, group, tanned, users)
+    tanned += [block for block in left if not left[block]]
     groups = dict.fromkeys(inner for block in tanned for inner in tan_groups(tree_of(block)))
-    said = give_back(obj, tanned, users, changes)
+    said = [*give_back(obj, tanned, users, changes), *_elsewhere(left)]
     if settings.material is not None:
         changes.set(settings, "material", None)
     changes.set(settings, "group", None)
@@ -69,18 +70,35 @@ def _left(
     group: bpy.types.NodeTree | None,
     tanned: list[bpy.types.Material],
     users: Users,
-) -> list[bpy.types.Material]:
-    """Materials with an object's tan that no object has in a slot any more."""
+) -> dict[bpy.types.Material, set[bpy.types.ID]]:
+    """Materials with an object's tan that it has in no slot any more, and who else shows them."""
     formers = [block.get(FORMER) for block in tanned]
-    return [
-        block
+    return {
+        block: users.others(block, obj)
         for block in bpy.data.materials
         if is_local(block)
         and (recolour.is_in(block) or MADE in block)
         and (block in formers or group in tan_groups(tree_of(block)))
         and block not in slots.materials_of(obj)
-        and not users.others(block, obj)
-    ]
+    }
+
+
+def _elsewhere(left: Mapping[bpy.types.Material, set[bpy.types.ID]]) -> list[str]:
+    """A sentence on materials that only objects without a tan of their own show now."""
+    without = {
+        block: others
+        for block, others in left.items()
+        if others and all(_is_without_tan(other) for other in others)
+    }
+    if not without:
+        return []
+    keep = "keep" if len(without) > 1 else "keeps"
+    where = names(set().union(*without.values()))
+    return [f"{names(without)}, now on {where}, {keep} the tan until Remove Tan there."]
+
+
+def _is_without_tan(block: bpy.types.ID) -> bool:
+    return isinstance(block, bpy.types.Object) and remembered(block).group is None
 
 
 def give_back(

@@ -65,7 +65,7 @@ def test_odd_numbers_in_one_of_several_masks_are_told(body, capfd):
     assert "Own Mask" not in said
 
 
-@pytest.mark.parametrize(("name", "called"), [("Beach", "'Beach'"), ("", "number 1")])
+@pytest.mark.parametrize(("name", "called"), [("Beach", "'Beach'"), ("", "exposure 1")])
 @pytest.mark.parametrize("several", [False, True])
 def test_an_empty_own_mask_is_told(body, capfd, several, name, called):
     exposure = body.skin_tan.exposures[0]

@@ -3,12 +3,10 @@
 from typing import Any, cast
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
-from . import applied, several, timing
+from . import applied, own_colour, several, timing
 from .model import doses
 from .model.curve import curve_of, is_seen
 from .model.film import film_of
@@ -37,7 +35,6 @@ from .scene import (
 from .scene import skin as skins
 from .scene.changes import Changes
 from .scene.ownership import is_local, names
-from .scene.painted import is_like_skin, painted_colour, weighted_median
 from .scene.plan import LOOK
 from .scene.region_nodes import Region, Spots
 from .scene.several import made_images as made_of_masks
@@ -75,19 +72,18 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         first_version.take_over(skin.group, changes)
         layout_1.take_over(skin.group, skin.trees(), changes)
         made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
-        sampled = _sampled(tan, obj, unit)
         timed = timing.key(obj, scene, days, frames, changes)
         regions.show(obj, skin.group, _regions(settings), unit, changes)
+        sampled, told = own_colour.prepare(obj, skin, tan.look, _sampled(tan, obj, unit), changes)
         replaced = nodes.update(skin.group, sampled, changes)
         mask = settings.shown_mask()
         shown = mask_nodes.shown_mask(obj, mask, changes)
         mask_nodes.show(skin.group, shown, changes)
         replaced |= several.show(obj, skin.group, of_masks, changes)
-        worn = _film(settings.film, sampled.roughness)
-        where = film.where(obj, settings.worn_film_mask(), changes)
-        film.show(skin.group, skin.trees(), worn, where, sampled.level, changes)
+        _show_film(obj, skin, sampled, changes)
         remember_source(skin.group, settings, values, tan, changes)
         attached = skin.attach(changes)
+        own_colour.tell(obj, skin.group, changes, is_on=sampled.own_image is not None)
         in_view = keep_view(skin.group, skin.trees(), changes)
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
@@ -95,11 +91,11 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         text = applied.text_of(obj, scene)
         images.note_content((sampled.states, sampled.places), applied.digest(text))
         if rough and settings.biology.is_changed():
-            images.note_shown(sampled.look.values(), applied.look_digest(text))
+            images.note_shown(sampled.of_look(), applied.look_digest(text))
         if not rough:
             applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
-        said = [*attached, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
+        said = [*attached, *told, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += [] if rough else [*_on_dose(obj, values), *_on_own_masks(settings)]
         on_masks = several.remarks(obj, of_masks) if of_masks and not rough else []
         said += on_masks if of_masks else mask_values.remarks(obj, mask, shown)
@@ -123,17 +119,6 @@ def list_materials(obj: bpy.types.Object | None) -> str:
         slots.remember(obj, ticked, changes)
     skin = [material for material, tans in ticked.items() if tans]
     return f"Ticked as skin: {names(skin)}." if skin else "No material is ticked as skin."
-
-
-def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
-    """Median linear colour (3,) over the area of an object's skin, as painted, if it has one."""
-    ticked = slots.ticks(obj, skins.group_of(obj))
-    colours = {material: painted_colour(obj, material) for material, tans in ticked.items() if tans}
-    skin = {block: colour for block, colour in colours.items() if is_like_skin(colour)}
-    areas = slots.areas(obj)
-    if not skin:
-        return None
-    return weighted_median(np.array([*skin.values()]), np.array([areas[block] for block in skin]))
 
 
 def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:
@@ -225,9 +210,16 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
     )
 
 
-def _film(name: str, roughness: float) -> film.Film | None:
-    """The film of a setting, on skin with a shader's roughness."""
-    return None if name == "NONE" else film.Film(**vars(film_of(name.lower(), roughness)))
+def _show_film(
+    obj: bpy.types.Object, skin: skins.Skin, sampled: nodes.Sampled, changes: Changes
+) -> None:
+    """Have an object's tan show what lies on its skin."""
+    settings = settings_of(obj)
+    worn = None
+    if settings.film != "NONE":
+        worn = film.Film(**vars(film_of(settings.film.lower(), sampled.roughness)))
+    where = film.where(obj, settings.worn_film_mask(), changes)
+    film.show(skin.group, skin.trees(), worn, where, sampled.level, changes)
 
 
 def _require_masks(obj: bpy.types.Object) -> None:

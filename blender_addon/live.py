@@ -22,6 +22,7 @@ from hylios.errors import InputError
 from . import applied, timers
 from .apply import apply_tan, tannable
 from .model.history import DRAG, FULL, Precision
+from .model.own_colour import offsets
 from .model.tan import history_of, look_of
 from .props import settings_of
 from .scene import images, nodes, several
@@ -164,10 +165,11 @@ def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
     """Put an object's biology into the images of its look; else as `show_schedule`."""
     tannable(obj)
     settings = settings_of(obj)
-    look = vars(look_of(settings.values(), rough=rough))
+    look = look_of(settings.values(), rough=rough)
     content = applied.look_digest(text)
     for role, image in (nodes.own_look(settings.group) or {}).items():
-        images.swap_pixels(image, look[LOOK_VALUES[role]], content, pack=True)
+        values = offsets(look) if role == "own_image" else getattr(look, LOOK_VALUES[role])
+        images.swap_pixels(image, values, content, pack=True)
         image.buffers_free()  # Blender converts colours as it reads them from the packed file
 
 

@@ -6,8 +6,9 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
-from .apply import mesh_object, painted_skin
+from .apply import mesh_object
 from .model.matching import Match, nearest
+from .own_colour import painted_skin
 from .props import SkinTanSettings
 
 

@@ -53,6 +53,8 @@ GERMAN = {
     "Type V, brown": "Typ V, braun",
     "Type VI, dark": "Typ VI, dunkel",
     "Table File": "Tabellendatei",
+    "Tan from Own Colour": "Bräune nach eigener Farbe",
+    "Usual Colour": "Übliche Farbe",
     "Set Sensitivity by Hand": "Empfindlichkeit selbst setzen",
     "Tans from (SED)": "Bräunt ab (SED)",
     "Burns from (SED)": "Rötet ab (SED)",

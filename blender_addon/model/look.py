@@ -66,6 +66,8 @@ class Look:
     melanin, blood, thickness : pairs of float
         Square root of the relative melanin at the first and last column; b at the first and the
         last row; v of thin and thick skin.
+    most_tan : float
+        Largest u of tans of the skin's kinetics.
     level : float
         The shader's base colour over `colour`, seen at 8 degrees.
     near_weight : float
@@ -86,6 +88,7 @@ class Look:
     melanin: tuple[float, float]
     blood: tuple[float, float]
     thickness: tuple[float, float]
+    most_tan: float
     level: float
     near_weight: float
     through: tuple[float, float, float, float]
@@ -129,6 +132,7 @@ def look(table: SkinTable, minimal: MinimalDoses) -> Look:
         melanin=grid.melanin,
         blood=grid.blood,
         thickness=grid.thickness,
+        most_tan=float(grid.spread.most.max()),
         level=level,
         near_weight=_near_weight(level * colour, near),
         through=through_gloss(roughness),

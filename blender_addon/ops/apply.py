@@ -9,8 +9,9 @@ from bpy.props import BoolProperty, EnumProperty
 from hylios.errors import InputError
 
 from .. import timing
-from ..apply import apply_tan, painted_skin, tannable
+from ..apply import apply_tan, tannable
 from ..model.fitting import nearest_type
+from ..own_colour import painted_skin
 from ..props import settings_of
 from ..props.copying import copy_values
 from .active import (

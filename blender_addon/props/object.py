@@ -177,6 +177,19 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         name="New Material",
         description="Put a new skin in place of the ticked materials. Remove Tan gives them back",
     )
+    own_colour: BoolProperty(
+        name="Tan from Own Colour",
+        description="Painted freckles, moles and other darker, lighter or redder places tan as "
+        "such skin does. Without it, all skin tans alike. No effect on a new material",
+    )
+    usual_colour: FloatVectorProperty(
+        name="Usual Colour",
+        description="The colour in which most of the skin is painted; it tans as its type does. "
+        "Reset it, and Apply takes it from the texture",
+        subtype="COLOR",
+        min=0.0,
+        max=1.0,
+    )
     exposures: CollectionProperty(type=SkinTanExposure)
     exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})
     film: EnumProperty(

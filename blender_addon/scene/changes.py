@@ -10,6 +10,7 @@ from types import TracebackType
 from typing import Any
 
 import bpy
+from mathutils import Color
 
 MADE = ("images", "materials", "node_groups", "actions")
 """Collections of `bpy.data` into which Apply puts new data-blocks."""
@@ -59,9 +60,9 @@ class Changes:
 
     def set(self, owner: Any, name: str, value: Any) -> None:
         """Set an attribute."""
-        former = getattr(owner, name)
-        if isinstance(former, bpy.types.bpy_prop_array):
-            former = tuple(former)  # it would follow the change
+        former: Any = getattr(owner, name)
+        if isinstance(former, bpy.types.bpy_prop_array | Color):
+            former = tuple(former[:])  # it would follow the change
         self.on_failure(setattr, owner, name, former)
         setattr(owner, name, value)
 

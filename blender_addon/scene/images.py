@@ -222,7 +222,7 @@ def replace(
             continue
         elif CONTENT in new and CONTENT not in image:
             # Of an earlier plan: the new one shows the same over other coordinates.
-            changes.at_the_end(partial(_remove_unused, image))
+            changes.at_the_end(partial(remove_if_unused, image))
         elif CONTENT in new:
             changes.at_the_end(partial(image.user_remap, new))
             changes.at_the_end(partial(bpy.data.images.remove, image))
@@ -243,7 +243,8 @@ def remove_unused() -> None:
             bpy.data.images.remove(image)
 
 
-def _remove_unused(image: bpy.types.Image) -> None:
+def remove_if_unused(image: bpy.types.Image) -> None:
+    """Remove an image if nothing shows it."""
     if image.users == 0:
         bpy.data.images.remove(image)
 

@@ -43,6 +43,7 @@ IMAGE_KEYS = {
     "states": "skin_tan_states",
     "columns": "skin_tan_places",
     **{role: f"skin_tan_{role}" for role in LOOK},
+    "own_image": "skin_tan_own_image",
 }
 """Custom properties of a group: the images that were made for it, whatever its nodes show."""
 
@@ -76,6 +77,8 @@ class Sampled:
     first_day, last_day : float
     scene_unit : float
         Length of a scene unit in metres, on a body of life-size.
+    own_image : Image or None
+        Melanin and blood of painted colours, where these say how skin tans.
     """
 
     states: bpy.types.Image
@@ -92,6 +95,7 @@ class Sampled:
     first_day: float
     last_day: float
     scene_unit: float
+    own_image: bpy.types.Image | None = None
 
     @property
     def images(self) -> dict[str, bpy.types.Image]:
@@ -103,7 +107,12 @@ class Sampled:
             **self.look,
             "thick_colour": self.look["colour"],
             "untanned": self.look["colour"],
+            **({"own_image": self.own_image} if self.own_image else {}),
         }
+
+    def of_look(self) -> list[bpy.types.Image]:
+        """The images that come from the look."""
+        return [*self.look.values(), *([self.own_image] if self.own_image else [])]
 
 
 def radius_of_millimetre(scene_unit: float) -> float:
@@ -169,7 +178,8 @@ def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, bpy.types.I
 
 def own_look(group: bpy.types.NodeTree) -> dict[str, bpy.types.Image] | None:
     """Images of the look by role, where a group shows those that were made for it."""
-    made = {role: group.get(IMAGE_KEYS[role]) for role in LOOK}
+    own = ["own_image"] if any(of_role(group, "own_image")) else []
+    made = {role: group.get(IMAGE_KEYS[role]) for role in (*LOOK, *own)}
     for role, image in made.items():
         if image is None or {node.image for node in of_role(group, role)} != {image}:
             return None
@@ -327,8 +337,8 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "look_column": melanin,
         "look_row": blood,
         "thickness": _between(sampled.thickness, 0.0, 1.0),
-        "region_column": melanin,
-        "region_row": blood,
+        **dict.fromkeys(("region_column", "own_column"), melanin),
+        **dict.fromkeys(("region_row", "own_row"), blood),
         "untanned_place": {"X": _mapped(melanin, 1.0), "Y": _mapped(blood, 0.0)},
         "gain": {2: (sampled.level,) * 3},
         "near_scaled": {"Scale": 1.0 / low if sampled.near_weight > 0.0 else 0.0},

@@ -4,9 +4,13 @@ Two kinds of node come into a tree, and say so in a custom property: one that sh
 and for every shader one that multiplies its colour by the group's Ratio. In a view a third comes
 behind each of these, which shows the view's colour. Taking them out gives back what was there
 before, with all that the artist has changed meanwhile.
+
+Where the painted colour says how skin tans, every painted colour has a node of its own that shows
+the group, since it is told that colour.
 """
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Any
 
 import bpy
@@ -21,6 +25,13 @@ INSERTED, TAN, FACTOR, INSTEAD = "skin_tan_inserted", "tan", "factor", "instead"
 
 PLACE = "skin_tan_place"
 """Custom property of a factor: which of the tree's links led to the shader's colour, or -1."""
+
+PAINTED_COLOUR, SHARE_OF_PAINTED = "Painted Colour", "Own Colour"
+"""Inputs of the tan's group, where it takes account of painted colours."""
+
+IS_TOLD, IS_MORE = "skin_tan_told", "skin_tan_more"
+"""Custom properties of a node that shows the tan's group: whether it is told a painted colour, and
+whether it was made for that alone."""
 
 
 def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: Changes) -> None:
@@ -170,8 +181,8 @@ def show_instead(tree: Any, output: str, changes: Changes) -> None:
     changes.may_add_to(tree.nodes)
     changes.may_relink(tree)
     for factor in plain:
-        tans = [link.from_node for link in factor.inputs[1].links]
-        if not tans or tans[0].get(INSERTED) != TAN:
+        tan = _tan_of(factor)
+        if tan is None:
             continue
         x, y = factor.location
         node = _new(tree, "ShaderNodeMix", INSTEAD, (x + 20, y - 40))
@@ -180,7 +191,7 @@ def show_instead(tree: Any, output: str, changes: Changes) -> None:
         for end in [link.to_socket for link in factor.outputs[0].links]:
             tree.links.new(find_output(node, "Result_Color"), end)
         tree.links.new(factor.outputs[0], find_input(node, "A_Color"))
-        tree.links.new(tans[0].outputs[output], find_input(node, "B_Color"))
+        tree.links.new(tan.outputs[output], find_input(node, "B_Color"))
 
 
 def show_painted(tree: Any) -> None:
@@ -188,6 +199,102 @@ def show_painted(tree: Any) -> None:
     for node in inserted(tree, INSTEAD):
         bridge(tree, find_input(node, "A_Color"), find_output(node, "Result_Color"))
         tree.nodes.remove(node)
+
+
+def tell_painted(tree: Any, changes: Changes) -> None:
+    """Tell the tan's group in a tree the colours that it multiplies.
+
+    What an artist has linked to the inputs for that, or set there, stays.
+    """
+    changes.may_add_to(tree.nodes)
+    changes.may_relink(tree)
+    tans: dict[Any, Any] = {}
+    for factor in inserted(tree, FACTOR):
+        tan = _tan_of(factor)
+        if tan is None or PAINTED_COLOUR not in tan.inputs:
+            continue
+        colour = _painted(factor)
+        if colour not in tans:
+            is_taken = tan.name in {other.name for other in tans.values()}
+            tans[colour] = _another(tree, tan, factor) if is_taken else tan
+        if tans[colour] != tan:
+            _show_by(tree, factor, tans[colour])
+        _tell(tree, tans[colour], factor, changes)
+
+
+def stop_telling(tree: Any, changes: Changes) -> None:
+    """Have one node show the tan's group in a tree again, as before `tell_painted`."""
+    tans = inserted(tree, TAN)
+    told = [tan for tan in tans if IS_TOLD in tan]
+    if not told:
+        return
+    changes.may_relink(tree)
+    first = next((tan for tan in tans if IS_MORE not in tan), tans[0])
+    for factor in inserted(tree, FACTOR):
+        if _tan_of(factor) not in (None, first):
+            _show_by(tree, factor, first)
+    for tan in told:
+        for link in list(tan.inputs[PAINTED_COLOUR].links):
+            tree.links.remove(link)
+        for key in (IS_TOLD, IS_MORE):
+            if key in tan:
+                changes.on_failure(tan.__setitem__, key, tan[key])
+                del tan[key]
+        if tan != first:
+            changes.at_the_end(partial(tree.nodes.remove, tan))
+
+
+def _tan_of(factor: Any) -> Any:
+    """The node of the tan whose Ratio a factor multiplies by; None where that was cut."""
+    sources = [link.from_node for link in factor.inputs[1].links]
+    return sources[0] if sources and sources[0].get(INSERTED) == TAN else None
+
+
+def _painted(factor: Any) -> Any:
+    """What tells one painted colour from another."""
+    given = factor.inputs[0]
+    if given.is_linked:
+        start = given.links[0].from_socket
+        return start.node.name, start.identifier
+    return tuple(given.default_value)
+
+
+def _another(tree: Any, tan: Any, factor: Any) -> Any:
+    """Another node that shows the tan's group with the same values, for a factor."""
+    more = _new(tree, "ShaderNodeGroup", TAN, _beside([factor.inputs[0]], (-220, 140)))
+    more.node_tree, more.width, more.label = tan.node_tree, tan.width, tan.label
+    more[IS_MORE] = True
+    for end, former in zip(more.inputs, tan.inputs, strict=True):
+        if former.name != PAINTED_COLOUR:
+            if hasattr(former, "default_value"):
+                end.default_value = former.default_value
+            for link in former.links:
+                tree.links.new(link.from_socket, end)
+    if IS_TOLD in tan:
+        more[IS_TOLD] = True
+    return more
+
+
+def _show_by(tree: Any, factor: Any, tan: Any) -> None:
+    """Have a factor, and what a view shows in its place, show the tan by another node."""
+    tree.links.new(tan.outputs["Ratio"], factor.inputs[1])
+    for link in factor.outputs[0].links:
+        if link.to_node.get(INSERTED) == INSTEAD:
+            end = find_input(link.to_node, "B_Color")
+            for former in list(end.links):
+                tree.links.new(tan.outputs[former.from_socket.name], end)
+
+
+def _tell(tree: Any, tan: Any, factor: Any, changes: Changes) -> None:
+    if IS_TOLD not in tan:
+        changes.set_key(tan, IS_TOLD, True)
+        changes.set(tan.inputs[SHARE_OF_PAINTED], "default_value", 1.0)
+    given, end = factor.inputs[0], tan.inputs[PAINTED_COLOUR]
+    if given.is_linked:
+        if not end.is_linked:
+            tree.links.new(given.links[0].from_socket, end).is_muted = given.links[0].is_muted
+    else:
+        changes.set(end, "default_value", (*given.default_value, 1.0))
 
 
 def _has_instead(factor: Any) -> bool:

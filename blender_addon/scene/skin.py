@@ -59,6 +59,12 @@ class Skin:
         distinct = dict.fromkeys(map(tree_of, blocks))
         return [tree for tree in distinct if tree not in (None, self.group)]
 
+    def recolours(self) -> bool:
+        """Whether a material of the artist's shows the tan, or will."""
+        return bool(self.fresh and not self.replacing) or any(
+            recolour.inserted(tree) for tree in self.trees()
+        )
+
     def attach(self, changes: Changes) -> list[str]:
         """Have the object show the group, and return sentences on it."""
         updated = [block for block in self._chain if block in self.ticked]

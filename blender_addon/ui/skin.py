@@ -27,6 +27,11 @@ def draw_skin(
     row.prop(cast(Any, context).scene.skin_tan, "sample", text="")
     row.operator("skin_tan.match_colour")
     layout.operator("skin_tan.match_texture", icon="TEXTURE")
+    column = layout.column()
+    column.active = not settings.new_material
+    column.prop(settings, "own_colour")
+    if settings.own_colour:
+        column.prop(settings, "usual_colour")
     layout.prop(settings, "own_minimal_doses")
     if settings.own_minimal_doses:
         column = layout.column(align=True)

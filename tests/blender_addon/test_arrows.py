@@ -27,10 +27,12 @@ SUBJECTS = {
         "hylios.errors",
     },
     "apply.py": {
-        *("applied", "several", "timing", "views", "model", "scene", "props", "hylios.errors"),
+        *("applied", "own_colour", "several", "timing", "views", "model", "scene", "props"),
+        "hylios.errors",
     },
+    "own_colour.py": {"model", "scene", "props"},
     "several.py": {"model", "scene", "props"},
-    "matching.py": {"apply", "model", "props", "hylios.errors"},
+    "matching.py": {"apply", "own_colour", "model", "props", "hylios.errors"},
     "removal.py": {"apply", "scene", "props", "hylios.errors"},
     "views.py": {"model", "scene", "props", "hylios.errors", "hylios.table"},
     "size.py": {"applied", "apply", "model", "scene", "props", "hylios.errors"},
@@ -39,8 +41,8 @@ SUBJECTS = {
     "scene": {"scene", "hylios.errors"},
     "props": {"props", "model", "scene", "hylios.errors"},
     "ops": {
-        *("ops", "apply", "removal", "masking", "matching", "timing", "views", "size"),
-        *("props", "model"),
+        *("ops", "apply", "removal", "masking", "matching", "own_colour", "timing", "views"),
+        *("size", "props", "model"),
         *("hylios.errors", "hylios.files"),
     },
     "ui": {

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scenes import apply, tan_object
 
-from blender_addon.apply import painted_skin
 from blender_addon.model import catalogue
 from blender_addon.model.fitting import type_colours
+from blender_addon.own_colour import painted_skin
 from blender_addon.scene.painted import weighted_median
 from blender_addon.ui import swatches
 

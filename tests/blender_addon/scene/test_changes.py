@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from artist_skins import layered, wear
+from artist_skins import layered, mixed, wear
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import add_mask, apply, look, tan_object
 from state import state
@@ -21,6 +21,7 @@ ROOMS = (
     "blender_addon/scene/",
     "blender_addon/removal.py",
     "blender_addon/apply.py",
+    "blender_addon/own_colour.py",
     "blender_addon/views.py",
 )
 COLLECTIONS = ("images", "materials", "node_groups", "actions", "meshes", "objects")
@@ -183,10 +184,29 @@ def of_layout_1(table_path):
     return body
 
 
+def by_own_colour(table_path):
+    """Two painted colours in a tree that say how they tan now."""
+    obj = tan_object(table_path)
+    wear(obj, [mixed("skin")])
+    apply(obj)
+    obj.skin_tan.own_colour = True
+    return obj
+
+
+def no_longer_by_own_colour(table_path):
+    obj = by_own_colour(table_path)
+    apply(obj)
+    obj.skin_tan.own_colour = False
+    return obj
+
+
 SCENES = [new, again, shared, without_slots, of_first_version, of_layout_1]
+SLOW = [by_own_colour, no_longer_by_own_colour]
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    "scene", [*SCENES, *(pytest.param(scene, marks=pytest.mark.slow) for scene in SLOW)]
+)
 def test_an_exception_anywhere(table_path, monkeypatch, scene):
     obj = scene(table_path)
     tan = module.tan_of(obj.skin_tan.values())

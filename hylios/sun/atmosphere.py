@@ -28,7 +28,8 @@ from hylios.adding.scattering import (
 from hylios.threads import one_thread
 
 NODES = 10
-"""Directions up and down: within 1e-3 of what many more give, in erythemal light."""
+"""Directions up and down: erythemal light is within 2e-4 of what many more give, the sun up to 80
+degrees from the zenith."""
 
 EDGES = 50.0, 30.0, 20.0, 10.0, 2.0
 """Heights in km between layers, from above."""
@@ -93,8 +94,8 @@ class Passage:
     Attributes
     ----------
     series : (M, W) array
-        Logarithm of the share of light from above that comes down, by Legendre polynomials of
-        twice the cosine less 1.
+        Logarithm of the share of light from above that comes down, times the cosine, by Legendre
+        polynomials of twice the cosine less 1: a constant where nothing scatters.
     returned : (W,) array
         Share of diffuse light from below that comes back down.
     """
@@ -104,7 +105,7 @@ class Passage:
 
     def at(self, cosine: np.ndarray) -> np.ndarray:
         """Share that comes down of light at cosines (..., W) from the zenith."""
-        return np.exp(legval(2.0 * cosine - 1.0, self.series, tensor=False))
+        return np.exp(legval(2.0 * cosine - 1.0, self.series, tensor=False) / cosine)
 
 
 def passage(depths: Depths, kilometres: float) -> Passage:
@@ -131,7 +132,8 @@ def passage(depths: Depths, kilometres: float) -> Passage:
     straight = np.exp(-(own.molecules + own.ozone + own.aerosol)[:, None] / cosine)
     # no less than comes straight down, where rounding is more than all that scatters
     transmitted = np.maximum(down.sum(axis=2), np.maximum(straight, 1e-300))
-    series = np.linalg.solve(legvander(2.0 * cosine - 1.0, NODES - 1), np.log(transmitted).T)
+    values = (cosine * np.log(transmitted)).T
+    series = np.linalg.solve(legvander(2.0 * cosine - 1.0, NODES - 1), values)
     return Passage(series, back.sum(axis=2) @ (2.0 * cosine * weight))
 
 

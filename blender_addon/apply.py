@@ -58,7 +58,6 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     """
     obj = tannable(obj)
     settings = settings_of(obj)
-    settings.name_masks()
     _require_masks(obj)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)
@@ -96,7 +95,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
             applied.note(obj, scene, changes)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *told, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
-        said += [] if rough else [*_on_dose(obj, values), *_on_own_masks(settings)]
+        said += [] if rough else _on_dose(obj, values)
         on_masks = several.remarks(obj, of_masks) if of_masks and not rough else []
         said += on_masks if of_masks else mask_values.remarks(obj, mask, shown)
         said += [*in_view, *_on_kept(kept)]
@@ -225,6 +224,7 @@ def _show_film(
 def _require_masks(obj: bpy.types.Object) -> None:
     """Raise InputError unless all masks of an object can be used."""
     settings = settings_of(obj)
+    settings.name_masks()
     of_regions = (masks.Mask.of(region.mask) for region in settings.shown_regions())
     others = settings.shown_mask(), settings.worn_film_mask()
     for mask in {*settings.masks(), *others, *of_regions}:
@@ -272,14 +272,15 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
 
 
 def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
-    """Why no tan can be seen on an object, whatever its masks are."""
+    """Why no tan can be seen on an object, or it can be where it should not."""
     if not obj.modifiers and obj.mode != "EDIT" and not cast(bpy.types.Mesh, obj.data).polygons:
         return [f"{obj.name!r} has no faces, so no skin can be seen."]
     if not settings_of(obj).exposures:
         return [f"{obj.name!r} has no time in the sun, so nothing tans; add one with +."]
     if not values.exposures:
         return [f"All times in the sun of {obj.name!r} are switched off, so nothing tans."]
-    return [] if is_seen(curve_of(values)) else [timing.NOT_SEEN]
+    seen = [] if is_seen(curve_of(values)) else [timing.NOT_SEEN]
+    return [*seen, *_on_own_masks(settings_of(obj))]
 
 
 def _on_own_masks(settings: SkinTanSettings) -> list[str]:

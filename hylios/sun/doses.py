@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.spectra import Spectra
 from hylios.sun.action_spectra import (
+    LAST_NM,
     SED,
     USUAL_TANNING,
     Absorptance,
@@ -34,6 +35,9 @@ WATTS_PER_UV_INDEX = 0.025
 LONGEST = 240.0
 """Most hours of one exposure to a lamp or a UV index."""
 
+FIRST_UVA_NM = 320.0
+"""Where UVA begins, as the thresholds of darkening have it."""
+
 INSTANTS = 12
 """Instants in an hour, or a share of one, at which the sun's light is computed."""
 
@@ -49,12 +53,16 @@ class Doses:
         As a meter under the same protection would show it.
     melanogenesis, thickening : (E,) arrays
         As they count for melanin and for thickness.
+    uva : (E,) array or None
+        J/cm^2 of 320 to 400 nm, by which melanin darkens at once
+        (`hylios.tanning.ImmediateDarkening`); None where no spectrum is given.
     """
 
     hours: NDArray[np.float64]
     erythemal: NDArray[np.float64]
     melanogenesis: NDArray[np.float64]
     thickening: NDArray[np.float64]
+    uva: NDArray[np.float64] | None = None
 
     def exposures(self) -> Exposures:
         """The doses as `hylios.tanning.simulate` takes them.
@@ -68,11 +76,15 @@ class Doses:
 
 
 def joined(parts: Sequence[Doses]) -> Doses:
-    """All doses of several, in their order."""
+    """All doses of several, in their order; of UVA, none where it is not known of any."""
     names = ("hours", "erythemal", "melanogenesis", "thickening")
     none = [np.zeros(0)]
+    uva = None
+    if any(part.uva is not None for part in parts):
+        given = [np.zeros(part.hours.size) if part.uva is None else part.uva for part in parts]
+        uva = np.concatenate(given)
     return Doses(
-        *(np.concatenate(none + [getattr(part, name) for part in parts]) for name in names)
+        *(np.concatenate(none + [getattr(part, name) for part in parts]) for name in names), uva
     )
 
 
@@ -244,7 +256,15 @@ def _of_light(
         erythemal_dose(grid, received, spectra),
         melanogenesis_dose(grid, received, absorptance, spectra, tanning),
         thickening_dose(grid, received, absorptance, spectra),
+        _uva(grid, received),
     )
+
+
+def _uva(wavelengths: np.ndarray, exposure: np.ndarray) -> np.ndarray:
+    """J/cm^2 of 320 to 400 nm in radiant exposures (E, W), J/m^2/nm."""
+    inside = (wavelengths >= FIRST_UVA_NM) & (wavelengths <= LAST_NM)
+    light, steps = exposure[..., inside], np.diff(wavelengths[inside])
+    return 1e-4 * (0.5 * (light[..., 1:] + light[..., :-1]) * steps).sum(axis=-1)
 
 
 def _spread(hour: float, duration: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

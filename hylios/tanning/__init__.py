@@ -5,6 +5,7 @@ times in hours. Layers are ordered as the thesis numbers them: basale, spinosum,
 only.
 """
 
+from hylios.tanning.darkening import ImmediateDarkening
 from hylios.tanning.dynamics import (
     PIGMENTATIONS,
     TYPICAL_PIGMENTATION,
@@ -30,6 +31,7 @@ __all__ = [
     "Burns",
     "ErythemaDynamics",
     "Exposures",
+    "ImmediateDarkening",
     "Kinetics",
     "MeasuredDynamics",
     "MelaninDynamics",

@@ -59,10 +59,14 @@ def test_hours_of_sun_know_their_uva():
     absorptance = hylios.ultraviolet_absorptance(hylios.specimen("S3"))
     sun = hylios.sun_doses(date(2025, 6, 21), 11, 13, 40.0, absorptance)
     assert sun.uva == pytest.approx([20.0, 20.0], abs=2.0)
-    known = joined([of_sed(0, 3.0), sun])
+    together = joined([of_sed(0, 3.0), sun])
     assert of_sed(0, 3.0).uva is None and joined([of_sed(0, 3.0)]).uva is None
-    assert known.uva is not None and np.array_equal(known.uva[1:], sun.uva) and known.uva[0] == 0.0
-    factor = USUAL.factor(known.hours, known.uva, [5, 11, 13, 37])
+    assert (
+        together.uva is not None
+        and np.array_equal(together.uva[1:], sun.uva)
+        and together.uva[0] == 0.0
+    )
+    factor = USUAL.factor(together.hours, together.uva, [5, 11, 13, 37])
     assert factor[0] == factor[1] == 1.0 and factor[2] > 1.2 and 1.0 < factor[3] < factor[2]
 
 

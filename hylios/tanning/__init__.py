@@ -18,6 +18,7 @@ from hylios.tanning.erythema import Burns, ErythemaDynamics
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
 from hylios.tanning.kinetics import KINETICS, Kinetics
 from hylios.tanning.measured import MeasuredDynamics
+from hylios.tanning.peeling import Peeling, peeled_shares, without_peeled
 from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
 from hylios.tanning.spread import Spread, spread_of
 from hylios.tanning.tanning_history import TanningHistory
@@ -35,14 +36,17 @@ __all__ = [
     "Kinetics",
     "MeasuredDynamics",
     "MelaninDynamics",
+    "Peeling",
     "Spread",
     "TanningHistory",
     "ThicknessDynamics",
     "hill",
     "minimal_erythema_dose",
     "minimal_melanogenesis_dose",
+    "peeled_shares",
     "simulate",
     "simulate_in_parts",
     "spread_of",
     "states_at",
+    "without_peeled",
 ]

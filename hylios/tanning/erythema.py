@@ -226,6 +226,17 @@ class Burns:
         melanin, thickness = tan[..., :3].sum(axis=-1).T, tan[..., 3].T
         return self.blood(self.doses[some].T, melanin, thickness, marks)
 
+    def acting(
+        self,
+        doses: NDArray[np.floating],
+        melanin: NDArray[np.floating],
+        thickness: NDArray[np.floating],
+    ) -> NDArray[np.floating]:
+        """Doses (E, H) in MED of the skin as it is by then; parameters as in `blood`."""
+        own = self.dynamics
+        risen = own.protection(self.hours, doses) * own.shield(melanin, thickness)
+        return (doses / risen).astype(doses.dtype)
+
     def blood(
         self,
         doses: NDArray[np.floating],
@@ -241,12 +252,8 @@ class Burns:
             At the hours of these burns: doses in MED, and the relative melanin and thickness of
             the epidermis that they meet.
         """
-        dynamics = self.dynamics
-        acting = doses / (
-            dynamics.protection(self.hours, doses) * dynamics.shield(melanin, thickness)
-        )
-        energies = dynamics.retained_energies(self.hours, acting.astype(doses.dtype), marks)
-        blood = dynamics.blood(energies)
+        acting = self.acting(doses, melanin, thickness)
+        blood = self.dynamics.blood(self.dynamics.retained_energies(self.hours, acting, marks))
         blood[marks == 0] = 1.0
         return blood
 

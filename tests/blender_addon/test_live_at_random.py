@@ -3,11 +3,14 @@
 import bpy
 import numpy as np
 import pytest
+from artist_skins import mixed, wear
 from scenes import apply, of_role, pixels, tan_object
 
 from blender_addon import applied, live, timers
 from blender_addon.model import catalogue
+from blender_addon.model.own_colour import offsets
 from blender_addon.model.tan import history_of, look_of
+from blender_addon.scene import own_colour
 
 FEW, MANY = 60, 500
 SEEDS = (1, 2, 3)
@@ -26,7 +29,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(7)
+        kind = self.random.integers(8)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -38,6 +41,8 @@ class Artist:
             exposure.enabled = not exposure.enabled
         elif kind == 4:
             settings.biology.blood = float(self.random.choice([1.0, 1.5, 2.0]))
+        elif kind == 5:
+            settings.own_colour = not settings.own_colour
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 
@@ -84,6 +89,10 @@ def settled() -> None:
         pixels(of_role(obj, "rows").image)[..., :2], history.places[..., :2]
     )
     np.testing.assert_allclose(pixels(of_role(obj, "colour").image)[..., :3], look.colour, 1e-6)
+    assert own_colour.is_shown(obj.skin_tan.group) == obj.skin_tan.own_colour
+    if obj.skin_tan.own_colour:
+        shown = pixels(of_role(obj, "own_image").image)[..., :3]
+        np.testing.assert_allclose(shown, offsets(look), 1e-6)
     for image in bpy.data.images:
         assert image.packed_file is not None and image.size[0] > 0
 
@@ -101,7 +110,9 @@ def run(seed: int, folder, steps: int) -> None:
 def tanned(monkeypatch):
     """A body with a tan, as in a window, where undo finds what Live had shown."""
     monkeypatch.setattr(timers, "are_called", lambda: True)
-    apply(tan_object(catalogue.shipped_path("III")))
+    obj = tan_object(catalogue.shipped_path("III"))
+    wear(obj, [mixed("skin")])
+    apply(obj)
     bpy.ops.ed.undo_push(message="applied")
 
 

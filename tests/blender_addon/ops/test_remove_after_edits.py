@@ -1,12 +1,12 @@
 """Remove Tan gives back what was there, also after duplicates, swapped materials, deleted nodes."""
 
-import itertools
-
 import bpy
 import pytest
 from artist_skins import layered, plain, textured, wear
 from scenes import add_mask, apply, tan_group, tan_object
 from state import of_tree, state
+
+from blender_addon.model import catalogue
 
 
 def body(table_path):
@@ -31,12 +31,16 @@ def remove(obj) -> None:
 
 @pytest.mark.parametrize("linked", [False, True])
 @pytest.mark.parametrize("copy_first", [False, True])
-def test_a_duplicate_and_its_original_both_go_back(table_path, linked, copy_first, capfd):
+@pytest.mark.parametrize("own_colour", [False, True])
+def test_a_duplicate_and_its_original_both_go_back(
+    table_path, linked, copy_first, own_colour, capfd
+):
     obj = body(table_path)
     duplicate(obj, linked=linked)
     before = state()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     obj = body(table_path)
+    obj.skin_tan.own_colour = own_colour
     apply(obj)
     copy = duplicate(obj, linked=linked)
     copy.skin_tan.exposures[0].dose = 8.0
@@ -61,7 +65,7 @@ def told(slot) -> list:
 
 def test_three_that_shared_a_tan_all_go_back(table_path):
     """Whatever the order, and if one had its tan anew meanwhile."""
-    for order in itertools.permutations(range(3)):
+    for order in ((0, 1, 2), (2, 0, 1), (1, 2, 0)):
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
         obj = body(table_path)
         before = look_of(obj), [material.name for material in bpy.data.materials]
@@ -169,11 +173,13 @@ def deleted(tree, *kinds: str) -> None:
             tree.nodes.remove(node)
 
 
-@pytest.mark.parametrize("kinds", [("factor",), ("factor", "tan")])
+@pytest.mark.parametrize("kinds", [("factor",), ("tan",), ("factor", "tan")])
 @pytest.mark.parametrize("again", [False, True])
-def test_deleted_nodes_of_ours_leave_the_texture_linked(table_path, kinds, again):
+@pytest.mark.parametrize("own_colour", [False, True])
+def test_deleted_nodes_of_ours_leave_the_texture_linked(table_path, kinds, again, own_colour):
     obj = body(table_path)
     before = state()
+    obj.skin_tan.own_colour = own_colour
     apply(obj)
     for material in bpy.data.materials:
         deleted(material.node_tree, *kinds)
@@ -209,3 +215,16 @@ def test_a_source_that_is_linked_past_a_deleted_node_stays(table_path):
     tree.links.new(source.outputs[0], end)
     remove(obj)
     assert end.links[0].from_node == source and not list(tree.keys())
+
+
+def test_a_deleted_node_in_a_view_leaves_the_texture_linked():
+    """A view puts a node of its own between Tan and the shader."""
+    obj = body(catalogue.shipped_path("III"))
+    before = state()
+    bpy.context.scene.skin_tan.view = "NM365"
+    apply(obj)
+    tree = bpy.data.materials["skin"].node_tree
+    assert any(node.get("skin_tan_inserted") == "instead" for node in tree.nodes)
+    deleted(tree, "factor", "instead")
+    remove(obj)
+    assert state() == before

@@ -202,12 +202,9 @@ def fitted(start: MeasuredDynamics, starts: int = STARTS) -> MeasuredDynamics:
         off = residuals(of_numbers(logarithms))
         return np.append(np.sign(off) * off**2, 0.05 * (logarithms - middle))
 
-    best = None
-    for number in range(starts):
-        begun = middle + (random.normal(0.0, SPREAD) if number else 0.0)
-        result = least_squares(misfit, begun, diff_step=1e-2, max_nfev=25)
-        best = result if best is None or result.cost < best.cost else best
-    return of_numbers(best.x)
+    begun = [middle, *(middle + random.normal(0.0, SPREAD) for _ in range(starts - 1))]
+    results = [least_squares(misfit, one, diff_step=1e-2, max_nfev=25) for one in begun]
+    return of_numbers(min(results, key=lambda result: result.cost).x)
 
 
 def text(dynamics: MeasuredDynamics) -> str:
@@ -228,7 +225,7 @@ def text(dynamics: MeasuredDynamics) -> str:
 
 def main() -> int:
     """Print the rows, of the shipped constants or of a new fit."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description="the measured kinetics of melanin beside people")
     parser.add_argument("--fit", action="store_true", help="fit the constants anew (a minute)")
     arguments = parser.parse_args()
     shipped = MeasuredDynamics((1.0, 0.0, 0.0), (1.0, 0.0, 0.0), 1.0, MOST_GAINS)

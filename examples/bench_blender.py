@@ -99,7 +99,7 @@ def report_schedules(folder: Path) -> None:
     for days, count in SCHEDULES:
         new_file()
         obj, shown = grid(), bpy.context.scene
-        before = saved_size(folder)
+        before = saved_megabytes(folder)
         scheduled(obj, days, count)
         what = f"{days:g} days, {count} exposure{'s' if count > 1 else ''}"
 
@@ -120,23 +120,27 @@ def report_schedules(folder: Path) -> None:
 
         applied = milliseconds(press, 1 + REPEATS)[1:]
         report_at_most(f"Apply, {what}", applied, "ms", None)
-        megabytes = (saved_size(folder) - before) / 1e6
-        report_at_most("  adds to a file", [megabytes], "MB", SIZE_LIMITS.get(days))
-        before = saved_size(folder)
+        first = saved_megabytes(folder)
         apply_tan(scheduled(grid(), days, count), shown)
-        megabytes = (saved_size(folder) - before) / 1e6
-        report_at_most("  a second object of that skin adds", [megabytes], "MB", None)
+        second = saved_megabytes(folder)
+        for how, own, further in zip(
+            ("compressed", "not"), first - before, second - first, strict=True
+        ):
+            report_at_most(f"  adds to a file, {how}", [own], "MB", SIZE_LIMITS.get(days))
+            report_at_most(f"  a second object of that skin, {how}", [further], "MB", None)
         dragged = milliseconds(drag, 1 + REPEATS)[1:]
         report_at_most("  a changed exposure, while dragging", dragged, "ms", LIVE_LIMITS.get(days))
         report_at_most("  the same after release", milliseconds(release, REPEATS), "ms", None)
 
 
-def saved_size(folder: Path) -> int:
-    """Bytes of the file as it is saved."""
-    path = folder / "size.blend"
-    with redirect_stdout(StringIO()):  # Blender says that it has saved
-        bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False, copy=True)
-    return path.stat().st_size
+def saved_megabytes(folder: Path) -> np.ndarray:
+    """Size of the file as it is saved, (2,): compressed, as Blender 5 does by itself, and not."""
+    path, sizes = folder / "size.blend", []
+    for compress in (True, False):
+        with redirect_stdout(StringIO()):  # Blender says that it has saved
+            bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=compress, copy=True)
+        sizes.append(path.stat().st_size / 1e6)
+    return np.array(sizes)
 
 
 def report_masks() -> None:

@@ -11,9 +11,9 @@ RELIEF = 0.12
 """Megabytes of the group of skin's relief, which a file holds once."""
 
 
-def saved(folder) -> int:
+def saved(folder, *, compress: bool = False) -> int:
     path = folder / "saved.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False, copy=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=compress, copy=True)
     return path.stat().st_size
 
 
@@ -25,6 +25,15 @@ def sunny(table_path, days: float, exposures: int):
         exposure = obj.skin_tan.exposures.add()
         exposure.day, exposure.dose = float(day), float(random.uniform(2.0, 14.0))
     return obj
+
+
+@pytest.mark.parametrize(("days", "exposures", "most"), [(30.0, 1, 0.4), (365.0, 20, 1.0)])
+def test_as_blender_5_saves_it_adds_less(table_path, tmp_path, days, exposures, most):
+    """Compressed, as its factory settings have it."""
+    obj = sunny(table_path, days, exposures)
+    before = saved(tmp_path, compress=True)
+    apply(obj)
+    assert (saved(tmp_path, compress=True) - before) / MEGABYTE < most / 2
 
 
 @pytest.mark.parametrize(

@@ -72,8 +72,8 @@ def test_altitude_by_hand():
 
 
 def test_altitude_against_people_who_measured():
-    """The Alps have 10.7 % more erythemal light from the whole sky for a kilometre (Blumthaler,
-    Ambach and Ellinger 1997), this model 8 to 10 %: snow and the haze of valleys are not in it."""
+    """The Alps have 10.7 % more erythemal light from the whole sky for a kilometre (Schmucki and
+    Philipona 2002), this model 8 to 10 %: snow and the haze of valleys are not in it."""
     for zenith in (30.0, 60.0):
         high, low = (uv_index(zenith, ClearSky(altitude=height)) for height in (1000.0, 0.0))
         assert 0.08 < high / low - 1.0 < 0.107

@@ -59,9 +59,9 @@ def ground_albedo(name: str) -> float:
 def cloud_factor(cover: ArrayLike) -> NDArray[np.float64]:
     """Share of the clear sky's ultraviolet under clouds, linear between `COVERS`.
 
-    An average of all clouds: under an overcast sky thin ones let .7 through and thick ones .1, and
-    broken ones beside a bare sun can give more than a clear sky (Calbo et al., Rev. Geophys. 43,
-    RG2002, 2005).
+    An average of all clouds. Thin ones let far more through than thick ones, broken ones beside a
+    bare sun can give more than a clear sky (Calbo et al., Rev. Geophys. 43, RG2002, 2005), and by
+    eye alone a factor is off by half and more (Schwander et al., J. Geophys. Res. 107, 2002).
 
     Parameters
     ----------

@@ -77,11 +77,12 @@ def _colours(look: Look) -> tuple[NDArray, NDArray, NDArray]:
 
 
 def _last_column(look: Look, melanin: NDArray) -> int:
-    """The darkest skin that all of a tan still darkens.
+    """The darkest skin that all of a tan still darkens, or the half of it if tans reach so far.
 
     The look holds so much melanin, and with more of it the model's skin is not paler again.
     """
     darkest = int((look.colour[0] @ LUMINANCE).argmin())
-    room = int(np.searchsorted(melanin, melanin[-1] / np.exp(look.most_tan), side="right")) - 1
+    most = max(melanin[-1] / np.exp(look.most_tan), np.sqrt(melanin[-1]))
+    room = int(np.searchsorted(melanin, most, side="right")) - 1
     usual = int(abs(melanin - 1.0).argmin())
     return max(min(darkest, room), usual)

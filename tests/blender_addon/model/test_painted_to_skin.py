@@ -102,6 +102,13 @@ def test_the_usual_colour_is_that_of_the_skin_exactly():
         )
 
 
+def test_dark_places_are_told_where_tans_reach_the_end_of_the_look_too():
+    """Up to the root of the most melanin that it holds."""
+    shown, _ = of_skin("III")
+    slower = offsets(replace(shown, most_tan=2.5))
+    assert slower[..., 0].max() == pytest.approx(shown.melanin[1], rel=0.05)
+
+
 def test_colours_of_no_skin_are_held_without_a_jump():
     for name in TYPES:
         image = offsets(of_skin(name)[0])

@@ -3,17 +3,21 @@
 from hylios.skin.skin import (
     LEAST_PIGMENTATION,
     MOST_PIGMENTATION,
+    THICKENED,
     UNTANNED,
     USUAL_PIGMENTATION,
     Skin,
     varied,
+    whole_thickening,
 )
 
 __all__ = [
     "LEAST_PIGMENTATION",
     "MOST_PIGMENTATION",
+    "THICKENED",
     "UNTANNED",
     "USUAL_PIGMENTATION",
     "Skin",
     "varied",
+    "whole_thickening",
 ]

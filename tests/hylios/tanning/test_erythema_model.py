@@ -9,7 +9,7 @@ import hylios
 from hylios.adding import colours
 from hylios.colour_difference import ciede2000, lab
 from hylios.errors import InputError
-from hylios.skin.skin import whole_thickening
+from hylios.skin import whole_thickening
 from hylios.tanning import (
     LARGEST_DOSE,
     PIGMENTATIONS,

@@ -23,7 +23,6 @@ from .scene import (
     images,
     layout_1,
     mask_nodes,
-    mask_values,
     masks,
     nodes,
     recolour,
@@ -96,8 +95,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *told, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += [] if rough else _on_dose(obj, values)
-        on_masks = several.remarks(obj, of_masks) if of_masks and not rough else []
-        said += on_masks if of_masks else mask_values.remarks(obj, mask, shown)
+        said += several.remarks(obj, of_masks, shown, rough=rough)
         said += [*in_view, *_on_kept(kept)]
         return " ".join(said)
 

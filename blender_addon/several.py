@@ -7,15 +7,18 @@ from typing import cast
 import bpy
 import numpy as np
 
-from .model import basis
+from .model import basis, palette
 from .model.grid import MOST_MASKS_READ
 from .model.tan import BasisOverShares, basis_of, basis_over_shares
 from .props import settings_of
-from .scene import images, several, several_nodes
+from .scene import images, mask_values, several, several_nodes
 from .scene.changes import Changes
-from .scene.mask_nodes import shown_mask
-from .scene.mask_values import mask_values, remarks_on_several
+from .scene.mask_nodes import ShownMask, shown_mask
 from .scene.masks import Mask
+from .scene.texels import LARGEST, TexelShares, has_images, texel_shares
+
+ROUGH_TEXELS = 512
+"""Texels along a side, at most, while somebody changes a setting."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +38,21 @@ class AtPoints:
     said: tuple[str, ...]
 
 
-Computed = AtPoints | BasisOverShares
+@dataclass(frozen=True, eq=False)
+class AtTexels:
+    """A basis at texels.
+
+    Attributes
+    ----------
+    basis : Basis
+    texels : TexelShares
+    """
+
+    basis: basis.Basis
+    texels: TexelShares
+
+
+Computed = AtPoints | AtTexels | BasisOverShares
 
 
 def has_several(obj: bpy.types.Object) -> bool:
@@ -64,9 +81,14 @@ def computed(obj: bpy.types.Object, *, rough: bool = False) -> Computed | None:
     which = [distinct.index(mask) for mask in masks]
     if len(distinct) <= MOST_MASKS_READ:
         return basis_over_shares(settings.values(), which, rough=rough)
+    if has_images(distinct):
+        texels = texel_shares(obj, distinct, ROUGH_TEXELS if rough else LARGEST)
+        precision = palette.DRAG_PALETTE if rough else palette.FULL_PALETTE
+        made = basis_of(settings.values(), which, texels.shares, precision, texels.counts)
+        return AtTexels(made, texels)
     precision = basis.DRAG if rough else basis.FULL
     mesh = cast(bpy.types.Mesh, obj.data)
-    values = [mask_values(obj, mask) for mask in distinct]
+    values = [mask_values.mask_values(obj, mask) for mask in distinct]
     domain, shares = several.shares_of_masks(mesh, values)
     made = basis_of(settings.values(), which, shares, precision)
     share = (shares @ made.weights).astype(np.float32)
@@ -87,6 +109,8 @@ def show(
     shapes = several_nodes.Basis(told.rank, rows, days)
     if isinstance(made, AtPoints):
         return several.show(obj, group, shapes, made.on_mesh, changes)
+    if isinstance(made, AtTexels):
+        return several.show(obj, group, shapes, _palette(obj, made), changes)
     name = f"Skin Tan Mask Shares {obj.name}"
     made_images = [images.packed_image(name, own, is_colour=False) for own in made.images]
     grid = several_nodes.Grid(made_images, made.steps, [float(weight) for weight in told.weights])
@@ -94,10 +118,40 @@ def show(
     return several.show(obj, group, shapes, several.OverShares(grid, shown), changes)
 
 
-def remarks(obj: bpy.types.Object, made: Computed) -> list[str]:
-    """Sentences on the masks, and on whether they are too many to show exactly."""
-    is_read = isinstance(made, BasisOverShares)
-    said = remarks_on_several(obj, _distinct(obj)) if is_read else [*made.said]
+def _palette(obj: bpy.types.Object, made: AtTexels) -> several_nodes.Palette:
+    """Images of a basis at texels."""
+    told, texels = made.basis, made.texels
+    colours = palette.palette_images(told, texels.shares, texels.counts)
+    name = f"Skin Tan Mask Palette {obj.name}"
+    index = palette.places_in_palette(told.point[texels.number])
+    return several_nodes.Palette(
+        images.packed_bytes(f"Skin Tan Mask Texels {obj.name}", index),
+        [images.packed_image(name, own, is_colour=False) for own in colours],
+        texels.uv_map,
+    )
+
+
+def remarks(
+    obj: bpy.types.Object, made: Computed | None, shown: ShownMask, *, rough: bool
+) -> list[str]:
+    """Sentences on an object's masks, and on whether they are too many to show exactly.
+
+    Parameters
+    ----------
+    shown : ShownMask
+        What the nodes read where there is one mask.
+    rough : bool
+        Whether it is for a picture while somebody changes a setting.
+    """
+    if made is None:
+        return mask_values.remarks(obj, settings_of(obj).shown_mask(), shown)
+    if rough:
+        return []
+    if isinstance(made, AtPoints):
+        said = [*made.said]
+    else:
+        said = mask_values.remarks_on_several(obj, _distinct(obj))
+        said += made.texels.said if isinstance(made, AtTexels) else ()
     if made.basis.error > basis.WANTED["most"]:
         said.append(
             f"The masks lead to so many different tans that some points are off by up to "

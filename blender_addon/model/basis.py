@@ -90,7 +90,10 @@ class Basis:
 
     Attributes
     ----------
-    coefficients : (N, rank) float32 array
+    differing : (U, rank) float32 array
+        Coefficients of points that differ.
+    point : (N,) int array
+        Which of those a point has.
     rows : (T, 1 + rank, 3) float32 array
         u, v and b of the mean, and of the shapes, by day; the first row is that of the first day.
     places : (1, STEPS + 1, 3) float32 array
@@ -102,7 +105,8 @@ class Basis:
     first_day, last_day : float
     """
 
-    coefficients: NDArray[np.float32]
+    differing: NDArray[np.float32]
+    point: NDArray[np.int_]
     rows: NDArray[np.float32]
     places: NDArray[np.float32]
     weights: NDArray[np.float64]
@@ -112,8 +116,13 @@ class Basis:
 
     @property
     def rank(self) -> int:
-        """Coefficients of a point."""
-        return self.coefficients.shape[1]
+        """Number of coefficients of a point."""
+        return self.differing.shape[1]
+
+    @property
+    def coefficients(self) -> NDArray[np.float32]:
+        """Of all points, (N, rank)."""
+        return self.differing[self.point]
 
 
 def shown(basis: Basis, coefficients: NDArray, days: NDArray) -> NDArray[np.float64]:
@@ -137,6 +146,7 @@ def basis(
     med: float,
     first_day: float,
     last_day: float,
+    counts: NDArray[np.int_] | None = None,
     precision: BasisPrecision = FULL,
 ) -> tuple[Basis, NDArray[np.floating]]:
     """Simulate points of several masks; the basis, and states (..., 4) that some lead through.
@@ -149,6 +159,8 @@ def basis(
         0 to 1, of the doses of every mask.
     melanin, mmd, med, first_day, last_day
         As in `history`.
+    counts : (N,) int array, optional
+        How often the points are there.
 
     Raises
     ------
@@ -159,14 +171,13 @@ def basis(
     first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
     exposures = _of_masks(received)
     energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
-    vectors, counts, point = distinct(
-        given, energies, exposures.hours, levels=precision.levels, most=precision.most
-    )
+    told_apart = {"levels": precision.levels, "most": precision.most}
+    vectors, often, point = distinct(given, energies, exposures.hours, counts=counts, **told_apart)
     few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
     marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3)
     curves, states = _simulated(energies, vectors, marks, first)
     hours = marks[marks >= first]
-    shapes, coefficients, error = _shapes(curves, counts, precision)
+    shapes, coefficients, error = _shapes(curves, often, precision)
     places = np.zeros((1, STEPS + 1, 3), np.float32)
     days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
     places[0, :, 1] = texel_places(days, hours, len(hours))
@@ -176,7 +187,7 @@ def basis(
     rows[..., 1] = lines[:, len(hours) :].T / THICKENING
     doses = exposures.doses.sum(axis=1)
     weights = doses / max(doses.sum(), 1e-30)
-    told = Basis(coefficients[point], rows, places, weights, error, first_day, last_day)
+    told = Basis(coefficients, point, rows, places, weights, error, first_day, last_day)
     return told, states
 
 

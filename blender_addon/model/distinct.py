@@ -20,9 +20,10 @@ def distinct(
     energies: Energies,
     hours: NDArray[np.int_],
     *,
+    counts: NDArray[np.int_] | None = None,
     levels: int,
     most: int,
-) -> tuple[NDArray[np.float64], NDArray[np.int_], NDArray[np.int_]]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int_]]:
     """Points that differ (U, M), how often they are there, and which of them a point is (N,).
 
     The most frequent come first. Points that count as one are told by the mean of their shares.
@@ -35,6 +36,8 @@ def distinct(
         Of the doses of M kinds.
     hours : int array
         In which doses arrive.
+    counts : (N,) int array, optional
+        How often the points are there; once, if not given.
     levels : int
         Even steps of a share that are told apart; fewer where too many points differ.
     most : int
@@ -44,20 +47,20 @@ def distinct(
     while True:
         steps = (shares * levels + 0.5).astype(np.uint64)
         key = sides + _hashed(steps, 2)
-        _, index, point, counts = np.unique(
-            key, return_index=True, return_inverse=True, return_counts=True
-        )
-        if len(index) <= most or levels <= 1:
+        differing, point = np.unique(key, return_inverse=True)
+        if len(differing) <= most or levels <= 1:
             break
         levels //= 2
-    order = np.argsort(-counts, kind="stable")
+    often = np.bincount(point, weights=counts)
+    order = np.argsort(-often, kind="stable")
     rest = np.random.default_rng(SEED).permutation(order[FREQUENT:])
     order = np.append(order[:FREQUENT], rest)
     number = np.empty(len(order), int)
     number[order] = np.arange(len(order))
-    point, counts = number[point], counts[order]
-    sums = [np.bincount(point, weights=own, minlength=len(order)) for own in shares.T]
-    return np.clip(np.stack(sums, axis=1) / counts[:, None], 0.0, 1.0), counts, point
+    point, often = number[point], often[order]
+    times = 1 if counts is None else counts
+    sums = [np.bincount(point, weights=own * times) for own in shares.T]
+    return np.clip(np.stack(sums, axis=1) / often[:, None], 0.0, 1.0), often, point
 
 
 def _sides(

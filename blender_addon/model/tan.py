@@ -151,6 +151,7 @@ def basis_of(
     which: Sequence[int],
     shares: NDArray,
     precision: BasisPrecision = FULL_BASIS,
+    counts: NDArray[np.int_] | None = None,
 ) -> Basis:
     """The coordinates of points whose exposures have several masks.
 
@@ -160,6 +161,8 @@ def basis_of(
         Mask of every exposure of the settings.
     shares : (N, M) array
         Of the doses under every mask.
+    counts : (N,) int array, optional
+        How often the points are there.
 
     Raises
     ------
@@ -183,6 +186,7 @@ def basis_of(
         med=minimal.med,
         first_day=settings.first_day,
         last_day=settings.last_day,
+        counts=counts,
         precision=precision,
     )
     _require_held(table, states)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
-from .images import linear
-from .mask_nodes import NUMBER, WEIGHTS, ShownMask, slope_and_offset
+from .mask_images import at_places, of_channel
+from .mask_nodes import ShownMask, slope_and_offset
 from .masks import (
     COLOURS,
     Mask,
@@ -149,7 +149,7 @@ def _numbers(
     mesh = cast(bpy.types.Mesh, obj.data)
     if source.kind == "IMAGE":
         image = cast(bpy.types.Image, mask.image)
-        return "CORNER", _of_image(image, _uv(obj, mask.uv_map, depsgraph), mask.channel)
+        return "CORNER", at_places(image, uv_places(obj, mask.uv_map, depsgraph), mask.channel)
     if source.kind == "EVALUATED":
         mesh = _alike(obj, source.name, depsgraph)
     return _of_attribute(mesh, source.name, mask.channel)
@@ -182,7 +182,7 @@ def _of_attribute(mesh: bpy.types.Mesh, name: str, channel: str) -> tuple[str, N
     if attribute.data_type in COLOURS:
         colours = np.empty((count, 4), np.float32)
         attribute.data.foreach_get("color", colours.ravel())
-        numbers = _of_channel(colours, channel)
+        numbers = of_channel(colours, channel)
     else:
         kinds = {"FLOAT": np.float32, "BOOLEAN": np.bool_}
         values = np.empty(count, kinds.get(attribute.data_type, np.int32))
@@ -195,16 +195,25 @@ def _of_attribute(mesh: bpy.types.Mesh, name: str, channel: str) -> tuple[str, N
     return attribute.domain, numbers
 
 
-def _of_channel(colours: NDArray[np.float32], channel: str) -> NDArray[np.float32]:
-    if channel == "ALPHA":
-        return colours[:, 3].copy()
-    return colours[:, :3] @ np.array(WEIGHTS.get(channel, NUMBER), np.float32)
+def at_corners(mesh: bpy.types.Mesh, values: MaskValues) -> NDArray[np.float32]:
+    """Shares (corners,) of a mask."""
+    if values.domain == "CORNER":
+        return values.shares
+    points = np.empty(len(mesh.loops), np.int32)
+    cast(Any, mesh.loops).foreach_get("vertex_index", points)
+    return values.shares[points]
 
 
-def _uv(
-    obj: bpy.types.Object, name: str, depsgraph: bpy.types.Depsgraph | None
+def uv_places(
+    obj: bpy.types.Object, name: str, depsgraph: bpy.types.Depsgraph | None = None
 ) -> NDArray[np.float32]:
-    """UV coordinates (corners, 2) of a map; without a name, of the one that renders."""
+    """UV coordinates (corners, 2) of a map; without a name, of the one that renders.
+
+    Raises
+    ------
+    InputError
+        If they cannot be read.
+    """
     mesh = cast(bpy.types.Mesh, obj.data)
     if not mesh.uv_layers or (name and name not in mesh.uv_layers):
         mesh = _alike(obj, name or "the UV map", depsgraph)
@@ -218,31 +227,3 @@ def _uv(
     places = np.empty((len(mesh.loops), 2), np.float32)
     layer.uv.foreach_get("vector", places.ravel())
     return places
-
-
-def _of_image(image: Any, places: NDArray[np.float32], channel: str) -> NDArray[np.float32]:
-    """An image at UV coordinates (N, 2), as an Image Texture node that extends the edges."""
-    if image.source == "TILED":
-        raise InputError(
-            f"The image {image.name!r} has tiles (UDIM), which cannot be read for several masks; "
-            "allowed is an image without, or one mask for all exposures."
-        )
-    columns, rows = image.size
-    pixels = np.empty(rows * columns * image.channels, np.float32)
-    image.pixels.foreach_get(pixels)
-    pixels = pixels.reshape(rows, columns, image.channels)
-    at = np.clip(np.nan_to_num(places) * (columns, rows) - 0.5, 0.0, (columns - 1, rows - 1))
-    low = np.minimum(at.astype(np.int64), (max(columns - 2, 0), max(rows - 2, 0)))
-    high = np.minimum(low + 1, (columns - 1, rows - 1))
-    part = (at - low).astype(np.float32)
-    right, up = part[:, :1], part[:, 1:]
-    lower = pixels[low[:, 1], low[:, 0]] * (1 - right) + pixels[low[:, 1], high[:, 0]] * right
-    upper = pixels[high[:, 1], low[:, 0]] * (1 - right) + pixels[high[:, 1], high[:, 0]] * right
-    sampled = np.asarray(lower * (1 - up) + upper * up, np.float32)
-    if image.channels < 4:
-        opaque = np.ones((len(sampled), 1), np.float32)
-        colours = sampled[:, :3] if image.channels == 3 else np.repeat(sampled[:, :1], 3, axis=1)
-        sampled = np.concatenate([colours, opaque], axis=1)
-    if not image.is_float and "sRGB" in image.colorspace_settings.name:
-        sampled[:, :3] = linear(sampled[:, :3])
-    return _of_channel(sampled, channel)

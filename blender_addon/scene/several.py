@@ -1,8 +1,9 @@
 """A tan of several masks, in an object's group of nodes and on its mesh.
 
 The group has one node more, a group (`several_nodes`) that computes the skin's state and the share
-of all doses; it takes the place of the image of states and of the mask's nodes. It reads a few
-masks themselves, or of more masks attributes that are written onto the mesh.
+of of all doses; it takes the place of the image of states and of the mask's nodes. It reads a few
+masks themselves, or of more masks attributes that are written onto the mesh, or an image of which
+tan each texel has.
 """
 
 import json
@@ -18,21 +19,21 @@ from numpy.typing import NDArray
 from . import several_nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
-from .mask_values import MaskValues
+from .mask_values import MaskValues, at_corners
 from .nodes import new_node, of_role
 from .ownership import remembered
 from .plan import Role
-from .several_nodes import ATTRIBUTES_KEY, VALUES_OF_ATTRIBUTE, Basis, Grid
+from .several_nodes import ATTRIBUTES_KEY, VALUES_OF_ATTRIBUTE, Basis, Grid, Palette
 from .vertex_groups import new_attribute, remove_attribute
 
 PREFIX = "skin_tan_basis_"
 
 GRID = "grid_{}"
-"""Roles of the images over shares."""
+"""Roles of the images over shares, and of those of a palette."""
 
 IMAGE_KEYS = {
     role: f"skin_tan_basis_{role}"
-    for role in ("rows", "days", *(GRID.format(block) for block in range(5)))
+    for role in ("rows", "days", "index", *(GRID.format(block) for block in range(5)))
 }
 """Custom properties of a tan's group: the images of its basis."""
 
@@ -80,9 +81,7 @@ def shares_of_masks(
     """Domain, and shares (N, M) of masks; those at points are told at corners where one is so."""
     if all(own.domain == "POINT" for own in values):
         return "POINT", np.stack([own.shares for own in values], axis=1)
-    points = np.empty(len(mesh.loops), np.int32)
-    cast(Any, mesh.loops).foreach_get("vertex_index", points)
-    columns = [own.shares[points] if own.domain == "POINT" else own.shares for own in values]
+    columns = [at_corners(mesh, own) for own in values]
     return "CORNER", np.stack(columns, axis=1)
 
 
@@ -100,7 +99,7 @@ def show(
     obj: bpy.types.Object,
     group: bpy.types.NodeTree,
     basis: Basis,
-    source: OnMesh | OverShares,
+    source: OnMesh | OverShares | Palette,
     changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks; which new image replaces which former one."""
@@ -110,6 +109,11 @@ def show(
     if isinstance(source, OverShares):
         made |= {GRID.format(block): image for block, image in enumerate(source.grid.images)}
         tree = several_nodes.over_shares(name, basis, source.grid, source.masks, changes)
+        remove_attributes(obj, group, changes)
+    elif isinstance(source, Palette):
+        made |= {GRID.format(block): image for block, image in enumerate(source.images)}
+        made["index"] = source.index
+        tree = several_nodes.over_texels(name, basis, source)
         remove_attributes(obj, group, changes)
     else:
         former = [] if node is None else _names(node.node_tree)

@@ -62,6 +62,25 @@ class Grid:
     weights: Sequence[float]
 
 
+@dataclass(frozen=True, eq=False)
+class Palette:
+    """Coefficients by texels, as `blender_addon.model.palette` has them.
+
+    Attributes
+    ----------
+    index : Image
+        Which of the palette each texel has.
+    images : sequence of Image
+        The palette: of three values each, the last of which is the share of all doses.
+    uv_map : str
+        Where the texels lie; empty for the map that renders.
+    """
+
+    index: bpy.types.Image
+    images: Sequence[bpy.types.Image]
+    uv_map: str
+
+
 def on_mesh(name: str, basis: Basis, names: Sequence[str]) -> bpy.types.NodeTree:
     """Nodes that read coefficients, and last the share of all doses, from attributes."""
     made = _Tree(name, names)
@@ -88,6 +107,35 @@ def over_shares(
         whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole or 0.0)
     coefficients = [part for texel in _texels(made, grid, shares) for part in texel]
     return made.finished(basis, coefficients, whole)
+
+
+def over_texels(name: str, basis: Basis, palette: Palette) -> bpy.types.NodeTree:
+    """Nodes that read which tan the four nearest texels have, and the coefficients of those."""
+    made = _Tree(name, ())
+    uv = made.node("ShaderNodeUVMap", "UV map of the texels")
+    uv.uv_map = palette.uv_map
+    columns, rows = palette.index.size
+    place = made.scaled(uv.outputs["UV"], (columns, rows, 0.0), (-0.5, -0.5, 0.0), "In texels")
+    low = made.vector("FLOOR", "Texel", place)
+    part = made.parts(made.vector("SUBTRACT", "Part of the next texel", place, low), made.at)
+    parts = [
+        (made.math("SUBTRACT", "Part of the texel", 1.0, part[axis]), part[axis]) for axis in (0, 1)
+    ]
+    size = palette.images[0].size
+    across, up = 1.0 / columns, 1.0 / rows
+    totals: list[Any] = [None] * len(palette.images)
+    for right, above in ((0, 0), (1, 0), (0, 1), (1, 1)):
+        offset = ((right + 0.5) * across, (above + 0.5) * up, 0.0)
+        texel = made.scaled(low, (across, up, 0.0), offset, "Middle of a texel")
+        index = made.image(palette.index, "Which tan", texel, closest=True)
+        scale, start = (255.0 / size[0], 255.0 / size[1], 0.0), (0.5 / size[0], 0.5 / size[1], 0.0)
+        colour = made.scaled(index, scale, start, "Place in the palette")
+        weight = made.math("MULTIPLY", "Part", parts[0][right], parts[1][above])
+        for number, image in enumerate(palette.images):
+            value = made.image(image, f"Palette {number + 1}", colour, closest=True)
+            totals[number] = made.sum(value, weight, totals[number])
+    *coefficients, share = [value for total in totals for value in made.parts(total, made.at)]
+    return made.finished(basis, coefficients, share)
 
 
 def _texels(made: "_Tree", grid: Grid, shares: Sequence[Any]) -> Iterator[Sequence[Any]]:
@@ -174,10 +222,13 @@ class _Tree:
         node.attribute_type, node.attribute_name = "GEOMETRY", name
         return node
 
-    def image(self, image: bpy.types.Image, label: str, place: Any) -> Any:
+    def image(
+        self, image: bpy.types.Image, label: str, place: Any, *, closest: bool = False
+    ) -> Any:
         """The colour of an image at a place."""
         node = self.node("ShaderNodeTexImage", label)
-        node.image, node.interpolation, node.extension = image, "Linear", "EXTEND"
+        node.image, node.extension = image, "EXTEND"
+        node.interpolation = "Closest" if closest else "Linear"
         self.tree.links.new(place, node.inputs["Vector"])
         return node.outputs["Color"]
 
@@ -201,6 +252,18 @@ class _Tree:
             self._give(end, value)
         return node.outputs[0]
 
+    def vector(self, operation: str, label: str, *values: Any) -> Any:
+        """A vector from vectors."""
+        node = self.node("ShaderNodeVectorMath", label)
+        node.operation = operation
+        for end, value in zip(node.inputs, values, strict=False):
+            self._give(end, value)
+        return node.outputs[0]
+
+    def scaled(self, vector: Any, scale: tuple, offset: tuple, label: str) -> Any:
+        """A vector times numbers, and others added."""
+        return self.vector("MULTIPLY_ADD", label, vector, scale, offset)
+
     def sum(self, vector: Any, weight: Any, former: Any) -> Any:
         """A weighted vector, and what is there before."""
         node = self.node("ShaderNodeVectorMath", "Add")
@@ -212,7 +275,7 @@ class _Tree:
         return node.outputs[0]
 
     def _give(self, end: Any, value: Any) -> None:
-        if isinstance(value, float | int):
+        if isinstance(value, float | int | tuple):
             end.default_value = value
         else:
             self.tree.links.new(value, end)

@@ -84,7 +84,8 @@ def joined(parts: Sequence[Doses]) -> Doses:
         given = [np.zeros(part.hours.size) if part.uva is None else part.uva for part in parts]
         uva = np.concatenate(given)
     return Doses(
-        *(np.concatenate(none + [getattr(part, name) for part in parts]) for name in names), uva
+        *(np.concatenate(none + [getattr(part, name) for part in parts]) for name in names),
+        uva=uva,
     )
 
 

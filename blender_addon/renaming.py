@@ -3,6 +3,8 @@
 A mask has its image by pointer; the text field that an artist picks from holds a name.
 """
 
+from typing import Any
+
 import bpy
 from bpy.app.handlers import persistent
 
@@ -23,7 +25,8 @@ def name_masks() -> None:
 def subscribe(*_: object) -> None:
     """Handler: Blender forgets subscriptions when it loads a file."""
     unsubscribe()
-    bpy.msgbus.subscribe_rna(key=(bpy.types.Image, "name"), owner=OWNER, args=(), notify=name_masks)
+    names: Any = (bpy.types.Image, "name")
+    bpy.msgbus.subscribe_rna(key=names, owner=OWNER, args=(), notify=name_masks)
 
 
 def unsubscribe() -> None:

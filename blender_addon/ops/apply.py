@@ -67,8 +67,9 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
             obj = tannable(active_object(context))
             with _exposed(obj), _fitted(obj) as fitted:
                 said = " ".join([apply_tan(obj, scene), *fitted])
-            if self.show and timing.NOT_SEEN not in said:
-                said = f"{said} {timing.show_darkest(obj, scene)}"
+            darkest = timing.show_darkest(obj, scene) if self.show else ""
+            if darkest != timing.NOT_SEEN:  # else Apply has said why
+                said = f"{said} {darkest}".rstrip()
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

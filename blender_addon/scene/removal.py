@@ -78,7 +78,7 @@ def _left(
         for block in bpy.data.materials
         if is_local(block)
         and (recolour.is_in(block) or MADE in block)
-        and (block in formers or group in tan_groups(tree_of(block)))
+        and (block in formers or group in set(tan_groups(tree_of(block))))
         and block not in slots.materials_of(obj)
     }
 

@@ -37,8 +37,9 @@ def test_an_emptied_list_is_told(body, capfd):
 
 def test_exposures_that_are_all_off_are_told(body, capfd):
     body.skin_tan.exposures[0].enabled = False
-    said = said_by_apply(body, capfd)
+    said = said_by_apply(body, capfd, show=True)
     assert "All times in the sun of 'Body' are switched off, so nothing tans." in said
+    assert NOTHING not in said
 
 
 @pytest.mark.parametrize("values", [{"dose": 0.0}, {"dose": 0.5}, {"day": 40.0}])

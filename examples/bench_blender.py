@@ -124,7 +124,7 @@ def report_schedules(folder: Path) -> None:
         apply_tan(scheduled(grid(), days, count), shown)
         second = saved_megabytes(folder)
         for how, own, further in zip(
-            ("compressed", "not"), first - before, second - first, strict=True
+            ("compressed", "uncompressed"), first - before, second - first, strict=True
         ):
             report_at_most(f"  adds to a file, {how}", [own], "MB", SIZE_LIMITS.get(days))
             report_at_most(f"  a second object of that skin, {how}", [further], "MB", None)

@@ -142,8 +142,10 @@ class ChangedTable(SkinTable):
             return {}
         coordinates = self.axes.coordinates(states)
         nearest = tans.nearest(coordinates[..., 0], coordinates[..., 1])
-        distinct, which = np.unique(nearest.reshape(-1, 2), axis=0, return_inverse=True)
-        which = which.reshape(states.shape[:-1])
+        # as complex numbers they are sorted faster than as rows
+        pairs = np.ascontiguousarray(nearest).view(np.complex128)[..., 0]
+        distinct, which = np.unique(pairs, return_inverse=True)
+        distinct, which = distinct.view(float).reshape(-1, 2), which.reshape(pairs.shape)
         elsewhere = self.table.lookup(self._moved(tans.states(distinct)), solved)
         right, added = tans.numbers(distinct), self.correction.added(coordinates)
         factors = {}

@@ -191,12 +191,9 @@ class Grid:
         b = np.linspace(*self.blood, BLOOD_ROWS if self.blood[1] > self.blood[0] else 1)
         as_thick = np.clip(self.reached, min(thin + LEAST_SPAN, thick), thick)
         v = np.stack([np.full_like(u, thin), as_thick], axis=1)
-        states = self.spread.states(
-            *np.broadcast_arrays(
-                u[:, None, None], np.minimum(v, self.reached[:, None])[..., None], b[None, None]
-            )
-        )
-        states[..., 3] = np.exp(v)[..., None]
+        of_usual_blood = self.spread.states(u[:, None], np.minimum(v, self.reached[:, None]))
+        states = np.repeat(of_usual_blood[:, :, None], len(b), axis=2)
+        states[..., 3], states[..., 4] = np.exp(v)[..., None], np.exp(b)
         planes = table.lookup(states, names)
         further = ((thick - thin) / (as_thick - thin))[:, None, None]
         for values in planes.values():

@@ -233,7 +233,7 @@ def _simulated(
 
 
 def _shapes(
-    curves: NDArray[np.float32], counts: NDArray[np.int_], precision: BasisPrecision
+    curves: NDArray[np.float32], counts: NDArray[np.float64], precision: BasisPrecision
 ) -> tuple[Shapes, NDArray[np.float32], float]:
     """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
     *first, last = precision.ranks
@@ -246,7 +246,7 @@ def _shapes(
 
 
 def _of_rank(
-    curves: NDArray[np.float32], counts: NDArray[np.int_], rank: int, precision: BasisPrecision
+    curves: NDArray[np.float32], counts: NDArray[np.float64], rank: int, precision: BasisPrecision
 ) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
     """Shapes of some curves, once more with the worst of the others; coefficients; all errors."""
     those = np.arange(min(TRAINING, len(curves)))
@@ -260,7 +260,7 @@ def _of_rank(
 
 def _fitted(
     curves: NDArray[np.float32],
-    counts: NDArray[np.int_],
+    counts: NDArray[np.float64],
     those: NDArray[np.int_],
     rank: int,
     precision: BasisPrecision,

@@ -51,7 +51,7 @@ def distinct(
         if len(differing) <= most or levels <= 1:
             break
         levels //= 2
-    often = np.bincount(point, weights=counts)
+    often = np.asarray(np.bincount(point, weights=counts), float)
     order = np.argsort(-often, kind="stable")
     rest = np.random.default_rng(SEED).permutation(order[FREQUENT:])
     order = np.append(order[:FREQUENT], rest)

@@ -35,7 +35,7 @@ CHANNELS = 3
 SLICED = 2
 """With more masks an image has slices."""
 
-RANKS = (12, 15)
+RANKS = (6, 9, 12, 15)
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ COLUMNS, MOST = 256, 65_536
 CHANNELS = 3
 """Values of a texel of the palette's images."""
 
-RANKS = (8, 11, 14)
+RANKS = (5, 8, 11, 14)
 """With the share they are whole texels."""
 
 FULL_PALETTE = replace(FULL, ranks=RANKS)

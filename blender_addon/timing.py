@@ -8,7 +8,6 @@ from hylios.errors import InputError
 
 from .model.curve import curve_of, is_seen
 from .model.settings import check_days
-from .model.tan import darkest_day, history_of
 from .model.timing import OWN, SCENE, frames_of
 from .props import SkinTanSettings, settings_of
 from .scene import timeline
@@ -53,11 +52,12 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
         If the object's day has no keys, or a setting cannot be used.
     """
     values = settings_of(obj).values()
-    if not is_seen(curve_of(values)):
+    curve = curve_of(values)
+    if not is_seen(curve):
         return NOT_SEEN
     if timeline.is_moved_elsewhere(obj):
         return "A driver or a strip of the NLA governs the day of the tan; the frame stays."
-    day = darkest_day(history_of(values))
+    day = curve.darkest_day
     frame = timeline.frame_of_day(obj, scene, day)
     if frame is None:
         raise InputError(

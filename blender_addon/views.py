@@ -38,6 +38,7 @@ def remember_source(
         "mmd": doses.mmd,
         "med": doses.med,
         "biology": asdict(values.biology),
+        "kinetics": values.kinetics,
         "ends": _ends(tan.look),
     }
     changes.set_key(group, SOURCE_KEY, json.dumps(source))
@@ -134,7 +135,8 @@ def _look(source: Mapping[str, Any], view: str) -> BandLook:
     path: Path = table_file(source["skin"], source["table_path"])
     doses = MinimalDoses(mmd=source["mmd"], med=source["med"])
     biology = Biology(**source.get("biology", {}))
-    look = band_look(table_with(path, biology, bands=True), doses, VIEWS[view])
+    table, kinetics = table_with(path, biology, bands=True), source.get("kinetics", "thesis")
+    look = band_look(table, doses, VIEWS[view], kinetics)
     if not np.allclose(_ends(look), source["ends"], atol=1e-3):
         raise InputError("the table has changed since Apply; press Apply Tan.")
     return look

@@ -28,10 +28,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.sun.doses import Doses
-from hylios.tanning import Exposures, Kinetics
-from hylios.tanning.shares import Energies, retained, states_of_shares
+from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics
+from hylios.tanning.shares import Energies, retained
 
-from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
+from .days import STEPS, coordinates_of, hours_to_simulate, states_seen, texel_places
 from .distinct import distinct
 from .principal import Shapes, principal_shapes
 
@@ -40,8 +40,8 @@ MOST_MASKS = 8
 RANKS = (4, 8, 12, 16)
 """Numbers of coefficients that a point may have: they come four to an attribute."""
 
-THICKENING = 0.35
-"""What an error of v means over one of u, for what is seen."""
+WEIGHTS = np.array([1.0, 0.35, 0.7], np.float32)
+"""What errors of u, v and b mean for what is seen."""
 
 WANTED = {"mean": 0.003, "at 99 %": 0.017, "most": 0.039}
 """Errors of u with which a rank is enough. An error of .01 is .03 to .19 CIEDE2000, so these are
@@ -101,7 +101,7 @@ class Basis:
     weights : (M,) array
         Of the masks' shares in the share of all doses, for melanin.
     error : float
-        Largest error of u over points and rows, or what v's means for u.
+        Largest error of u over points and rows, or what v's and b's mean for u.
     first_day, last_day : float
     """
 
@@ -148,8 +148,9 @@ def basis(
     last_day: float,
     counts: NDArray[np.int_] | None = None,
     precision: BasisPrecision = FULL,
+    erythema: ErythemaDynamics | None = None,
 ) -> tuple[Basis, NDArray[np.floating]]:
-    """Simulate points of several masks; the basis, and states (..., 4) that some lead through.
+    """Simulate points of several masks; the basis, and states that some lead through.
 
     Parameters
     ----------
@@ -157,7 +158,7 @@ def basis(
         On bare skin, by mask: at most `MOST_MASKS`.
     shares : (N, M) array
         0 to 1, of the doses of every mask.
-    melanin, mmd, med, first_day, last_day
+    melanin, mmd, med, first_day, last_day, erythema
         As in `history`.
     counts : (N,) int array, optional
         How often the points are there.
@@ -174,8 +175,9 @@ def basis(
     told_apart = {"levels": precision.levels, "most": precision.most}
     vectors, often, point = distinct(given, energies, exposures.hours, counts=counts, **told_apart)
     few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
-    marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3)
-    curves, states = _simulated(energies, vectors, marks, first)
+    burns = None if erythema is None else Burns.of(exposures, erythema, med)
+    marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3, burns)
+    curves, states = _simulated(energies, vectors, marks, first, burns)
     hours = marks[marks >= first]
     shapes, coefficients, error = _shapes(curves, often, precision)
     places = np.zeros((1, STEPS + 1, 3), np.float32)
@@ -183,12 +185,12 @@ def basis(
     places[0, :, 1] = texel_places(days, hours, len(hours))
     rows = np.zeros((len(hours), 1 + coefficients.shape[1], 3), np.float32)
     lines = np.concatenate([shapes.mean[None], shapes.shapes])
-    rows[..., 0] = lines[:, : len(hours)].T
-    rows[..., 1] = lines[:, len(hours) :].T / THICKENING
+    told = lines.shape[1] // len(hours)
+    by_number = lines.reshape(len(lines), told, len(hours)).transpose(2, 0, 1)
+    rows[..., :told] = by_number / WEIGHTS[:told]
     doses = exposures.doses.sum(axis=1)
     weights = doses / max(doses.sum(), 1e-30)
-    told = Basis(coefficients, point, rows, places, weights, error, first_day, last_day)
-    return told, states
+    return Basis(coefficients, point, rows, places, weights, error, first_day, last_day), states
 
 
 def _checked(shares: ArrayLike, masks: int) -> NDArray[np.float64]:
@@ -216,19 +218,23 @@ def _of_masks(received: Sequence[Doses]) -> Exposures:
 
 
 def _simulated(
-    energies: Energies, vectors: NDArray[np.float64], marks: NDArray[np.int_], first: int
+    energies: Energies,
+    vectors: NDArray[np.float64],
+    marks: NDArray[np.int_],
+    first: int,
+    burns: Burns | None,
 ) -> tuple[NDArray[np.float32], NDArray[np.floating]]:
-    """u, and v as it counts, of points (U, 2 T) from the first hour on; states of some."""
+    """u, v and where skin reddens b of points (U, 2 T or 3 T), as they count; states of some."""
     told = marks >= first
-    curves = np.empty((len(vectors), 2, np.count_nonzero(told)), np.float32)
+    numbers = 2 if burns is None else 3
+    curves = np.empty((len(vectors), numbers, np.count_nonzero(told)), np.float32)
     kept = np.zeros(0)
     for start in range(0, len(vectors), CHUNK):
         part = vectors[start : start + CHUNK]
-        states = states_of_shares(energies, part, marks, np.float32)[told]
-        numbers = coordinates_of(states)
-        curves[start : start + CHUNK] = np.moveaxis(numbers[..., :2], (1, 2), (0, 1))
+        states = states_seen(energies, part, marks, np.float32, burns)[told]
+        seen = WEIGHTS[:numbers] * coordinates_of(states)[..., :numbers]
+        curves[start : start + CHUNK] = np.moveaxis(seen, (1, 2), (0, 1))
         kept = kept if start else states
-    curves[:, 1] *= THICKENING
     return curves.reshape(len(vectors), -1), kept
 
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hylios.adding.redness import JUST_SEEN
 from hylios.colour_difference import lab
-from hylios.table import melanin_dynamics
+from hylios.table import melanin_kinetics
 from hylios.tanning.spread import spread_of
 
 from . import catalogue
@@ -15,9 +16,9 @@ from .biology import table_with
 from .history import DRAG, History
 from .lines import Line
 from .settings import TanSettings
-from .tan import history_of
+from .tan import darkest_day, history_of
 
-POINTS = 121
+POINTS = 367
 """Days at which the curve is computed."""
 
 COLOUR = "total_colour"
@@ -37,20 +38,36 @@ class Curve:
     colours : (N, 3) array
         Linear Rec.709 albedo, seen straight on.
     lightness : (N,) array
-        CIE L*.
+        CIE L*, were it not red.
+    redness : (N,) array
+        How much more CIE a* it has than were it not red.
     untanned : float
         L* without sun.
+    darkest_day : float
+        When skin has most melanin.
     """
 
     days: NDArray[np.float64]
     colours: NDArray[np.float64]
     lightness: NDArray[np.float64]
+    redness: NDArray[np.float64]
     untanned: float
+    darkest_day: float
 
     @property
     def darkest(self) -> int:
         """Index of the darkest day."""
-        return int(self.lightness.argmin())
+        return int(abs(self.days - self.darkest_day).argmin())
+
+    @property
+    def burns(self) -> list[tuple[float, float]]:
+        """First and last day of every time in which redness can be seen."""
+        red = np.concatenate([[0], self.redness >= JUST_SEEN, [0]]).astype(int)
+        first, end = (np.flatnonzero(np.diff(red) == step) for step in (1, -1))
+        return [
+            (float(self.days[one]), float(self.days[last]))
+            for one, last in zip(first, end - 1, strict=True)
+        ]
 
     @property
     def half_gone(self) -> float | None:
@@ -98,10 +115,22 @@ def _curve(settings: TanSettings, stamp: tuple[int, int]) -> Curve:
     minimal = settings.minimal_doses(table.provenance)
     days = np.linspace(settings.first_day, settings.last_day, POINTS)
     coordinates = np.concatenate([np.zeros((1, 3)), _of_bare_skin(history, days)])
-    spread = spread_of(melanin_dynamics(table.provenance), mmd=minimal.mmd, med=minimal.med)
+    kinetics = melanin_kinetics(table.provenance, settings.kinetics)
+    spread = spread_of(kinetics, mmd=minimal.mmd, med=minimal.med)
     colours = table.lookup(spread.states(*coordinates.T), [COLOUR])[COLOUR]
-    lightness = lab(colours)[:, 0]
-    return Curve(days, colours[1:], lightness[1:], float(lightness[0]))
+    shown = tan = lab(colours)
+    if coordinates[:, 2].any():
+        # With redness the dermis thickens no more, so that what is left is melanin's.
+        without = spread.states(coordinates[:, 0], 0.0)
+        tan = lab(table.lookup(without, [COLOUR])[COLOUR])
+    return Curve(
+        days=days,
+        colours=colours[1:],
+        lightness=tan[1:, 0],
+        redness=(shown - tan)[1:, 1],
+        untanned=float(shown[0, 0]),
+        darkest_day=darkest_day(history),
+    )
 
 
 def _of_bare_skin(history: History, days: NDArray) -> NDArray[np.float64]:
@@ -121,17 +150,37 @@ def is_seen(curve: Curve) -> bool:
 
 def words(curve: Curve) -> tuple[str, ...]:
     """Short lines for an artist."""
-    darkest = curve.darkest
+    red = _red_words(curve)
     if not is_seen(curve):
-        return ("No tan that can be seen",)
-    first = Line("Darkest on day {darkest:.0f},", darkest=curve.days[darkest])
+        return (*red, "No tan that can be seen")
+    first = Line("Darkest on day {darkest:.0f},", darkest=curve.darkest_day)
     half = curve.half_gone
     if half is None:
-        return (first, Line("not half gone by day {last:.0f}", last=curve.days[-1]))
+        return (*red, first, Line("not half gone by day {last:.0f}", last=curve.days[-1]))
     if curve.gone is None:
-        return (first, Line("half gone by day {half:.0f}", half=half))
+        return (*red, first, Line("half gone by day {half:.0f}", half=half))
     both = Line("half gone by day {half:.0f}, all by {gone:.0f}", half=half, gone=curve.gone)
-    return (first, both)
+    return (*red, first, both)
+
+
+def _red_words(curve: Curve) -> tuple[str, ...]:
+    """When skin is burnt, where that can be seen."""
+    burns = curve.burns
+    if not burns:
+        return ()
+    first, last = burns[0][0], burns[-1][1]
+    if len(burns) > 1:
+        return (
+            Line(
+                "Burnt {count} times, days {first:.0f} to {last:.0f}",
+                count=len(burns),
+                first=first,
+                last=last,
+            ),
+        )
+    if round(first) == round(last):
+        return (Line("Burnt on day {day:.0f}", day=first),)
+    return (Line("Burnt on days {first:.0f} to {last:.0f}", first=first, last=last),)
 
 
 WIDTH, HEIGHT, STRIP = 240, 200, 36
@@ -139,12 +188,16 @@ WIDTH, HEIGHT, STRIP = 240, 200, 36
 
 MARGIN = 6
 LINE = np.array([0.95, 0.6, 0.3, 1.0])
+RED_LINE = np.array([0.95, 0.25, 0.3, 1.0])
 GRID = np.array([0.5, 0.5, 0.5, 0.45])
 """Colours that stand out from a dark and from a light theme; sRGB and opacity."""
 
 
 def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
     """The curve over its colours (HEIGHT, WIDTH, 4), sRGB from 0 to 1, the first row at the bottom.
+
+    Both lines leave that of skin without sun downwards: orange by how much darker skin is, in L*,
+    red by how much redder, in a*.
 
     Parameters
     ----------
@@ -156,14 +209,18 @@ def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
     pixels[:STRIP, :, :3] = shown[np.round(columns).astype(int)]
     pixels[:STRIP, :, 3] = 1.0
     low, high = STRIP + MARGIN, HEIGHT - MARGIN
-    span = max(curve.untanned - curve.lightness.min(), 1.0)
-    lightness = np.interp(columns, np.arange(len(curve.days)), curve.lightness)
-    height = high - (curve.untanned - lightness) / span * (high - low)
-    rows = np.arange(HEIGHT)[:, None]
+    darkness = curve.untanned - curve.lightness
+    span = max(darkness.max(), curve.redness.max(), 1.0)
     pixels[high - 1 : high + 1] = GRID  # skin without sun
     for week in np.arange(np.ceil(curve.days[0] / 7.0) * 7.0, curve.days[-1], 7.0):
         column = (week - curve.days[0]) / (curve.days[-1] - curve.days[0]) * (WIDTH - 1)
         pixels[low:high, int(column)] = GRID
-    slope = np.hypot(1.0, np.gradient(height))
-    covered = np.clip(1.8 - abs(rows - height) / slope, 0.0, 1.0)[..., None]
-    return (pixels * (1.0 - covered) + LINE * covered).astype(np.float32)
+    rows = np.arange(HEIGHT)[:, None]
+    lines = [(RED_LINE, curve.redness)] if curve.redness.max() >= PLAIN else []
+    for colour, numbers in (*lines, (LINE, darkness)):
+        own = np.interp(columns, np.arange(len(curve.days)), numbers)
+        height = high - own / span * (high - low)
+        slope = np.hypot(1.0, np.gradient(height))
+        covered = np.clip(1.8 - abs(rows - height) / slope, 0.0, 1.0)[..., None]
+        pixels = pixels * (1.0 - covered) + colour * covered
+    return pixels.astype(np.float32)

@@ -1,9 +1,10 @@
 """Which hours of a tan are simulated, and where a day lies among them."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from hylios.tanning import Exposures
+from hylios.skin import whole_thickening
+from hylios.tanning import Burns, Exposures
 from hylios.tanning.shares import Energies, states_of_shares
 
 from .thinning import by_bend
@@ -11,8 +12,30 @@ from .thinning import by_bend
 STEPS = 1024
 """Even steps of the days, and of the shares. A jump is spread over one step of the share."""
 
+AFTER = (1, 2, 4, 6, 9, 12, 16, 20, 26, 36, 48)
+"""Hours after an exposure that are candidates too where skin reddens: it does within the first."""
+
+WEIGHTS = np.array([1.0, 1.0, 0.7], np.float32)
+"""What errors of u, v and b mean for what is seen."""
+
 REMEMBERED = 120
 """Hours before the first day that are candidates, all of them: what has just begun goes on."""
+
+
+def states_seen(
+    energies: Energies,
+    shares: ArrayLike,
+    marks: NDArray[np.int_],
+    dtype: DTypeLike = float,
+    burns: Burns | None = None,
+) -> NDArray[np.floating]:
+    """States (T, S, 4), or (T, S, 5) of skin that reddens, by which a table tells how it looks.
+
+    Parameters and errors as of `states_of_shares`. Tables have skin all of which thickens; where
+    it reddens only the epidermis does (`whole_thickening`).
+    """
+    states = states_of_shares(energies, shares, marks, dtype, burns)
+    return states if burns is None else whole_thickening(states)
 
 
 def coordinates_of(states: NDArray[np.floating]) -> NDArray[np.float32]:
@@ -32,6 +55,7 @@ def hours_to_simulate(
     span: tuple[int, int],
     rows: int,
     candidates: int,
+    burns: Burns | None = None,
 ) -> NDArray[np.int_]:
     """Hours from 0 to the end of a span: dense where some tans bend.
 
@@ -47,20 +71,25 @@ def hours_to_simulate(
         Most hours in the span, and before it.
     candidates : int
         Even hours, over the number of rows, among which rows are picked.
+    burns : Burns, optional
+        Of skin that reddens.
     """
     first, end = span
     begun = _begun(exposures)
     begun = begun[begun <= end]
     kinks = np.unique(np.append(begun, np.maximum(begun - 1, 0)))
     if len(kinks) > rows // 2:
-        kinks = kinks[:0]
+        begun, kinks = begun[:0], kinks[:0]
     even = candidates * rows
     closely = np.arange(max(first - REMEMBERED, 0), first)
+    red = kinks[:0] if burns is None else np.unique(np.add.outer(begun, AFTER))
     hours = np.unique(
-        np.concatenate([_even(0, first, even), closely, _even(first, end, even), kinks])
+        np.concatenate(
+            [_even(0, first, even), closely, _even(first, end, even), kinks, red[red <= end]]
+        )
     )
-    states = states_of_shares(energies, few, hours, np.float32)
-    lines = coordinates_of(states)[..., :2].reshape(len(hours), -1)
+    states = states_seen(energies, few, hours, np.float32, burns)
+    lines = (WEIGHTS * coordinates_of(states)).reshape(len(hours), -1)
     start = int(np.searchsorted(hours, first))
     before = by_bend(hours[: start + 1], lines[: start + 1], rows)
     most = rows - int(np.count_nonzero(kinks >= first))

@@ -15,10 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.sun.doses import Doses
-from hylios.tanning import Exposures, Kinetics
-from hylios.tanning.shares import Energies, responses_of_shares, retained, states_of_shares
+from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics
+from hylios.tanning.shares import Energies, responses_of_shares, retained
 
-from .days import STEPS, coordinates_of, hours_to_simulate, texel_places
+from .days import (
+    STEPS,
+    WEIGHTS,
+    coordinates_of,
+    hours_to_simulate,
+    states_seen,
+    texel_places,
+)
 from .thinning import by_error
 
 EVEN_STEPS = 64
@@ -27,8 +34,11 @@ EVEN_STEPS = 64
 MOST_ROWS, MOST_COLUMNS = 160, 128
 """Of an image that stays in a file."""
 
+LONG_RED_ROWS = 320
+"""Most rows of more than two months of skin that reddens for days again and again."""
+
 TOLERANCE = 0.0045
-"""Largest error of u and v between rows or columns; u of .01 is about .07 CIEDE2000."""
+"""Largest error of u, v and weighted b between rows or columns; .01 is about .07 CIEDE2000."""
 
 FEW_SHARES = 6
 """Shares whose tans decide which hours are simulated."""
@@ -39,6 +49,9 @@ exposure."""
 
 THICKENING = 0.1
 """What a change of the response means for v, over what it means for u."""
+
+REDDENING, HOURS_TO_REDNESS = 0.05, 16
+"""What b means over the response to light; how long after an exposure skin is red."""
 
 LONG = 24 * 61
 """Hours beyond which a precision takes its rows for a long time."""
@@ -113,8 +126,9 @@ def history(
     first_day: float,
     last_day: float,
     precision: Precision = FULL,
+    erythema: ErythemaDynamics | None = None,
 ) -> tuple[History, NDArray[np.floating]]:
-    """Simulate doses from day 0; the history, and states (..., 4) that it leads through.
+    """Simulate doses from day 0; the history, and states (..., 4 or 5) that it leads through.
 
     Parameters
     ----------
@@ -127,6 +141,8 @@ def history(
         effect.
     precision : Precision
         `FULL` for what stays, `DRAG` for a picture at once.
+    erythema : ErythemaDynamics, optional
+        How the skin reddens; without it, it does not.
 
     Raises
     ------
@@ -136,15 +152,20 @@ def history(
     first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
     exposures = received.exposures()
     energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
-    steps = _steps(energies, _shown(exposures, end), precision)
+    burns = None if erythema is None else Burns.of(exposures, erythema, med)
+    steps = _steps(energies, _shown(exposures, end, HOURS_TO_PEAK), precision, burns)
     few = steps[np.linspace(0, len(steps) - 1, FEW_SHARES + 1).astype(int)[1:]] / STEPS
     rows = precision.rows_within(first, end)
-    hours = hours_to_simulate(energies, few, exposures, (first, end), rows, precision.candidates)
-    states = states_of_shares(energies, steps / STEPS, hours, precision.dtype)
+    hours = hours_to_simulate(
+        energies, few, exposures, (first, end), rows, precision.candidates, burns
+    )
+    states = states_seen(energies, steps / STEPS, hours, precision.dtype, burns)
     states, hours = states[hours >= first], hours[hours >= first]
     values = coordinates_of(states)
     if precision.thinned:
-        kept, columns = _thinned(hours, steps, values)
+        is_long_red = burns is not None and end - first > LONG
+        most = LONG_RED_ROWS if is_long_red else MOST_ROWS
+        kept, columns = _thinned(hours, steps, values, most)
         hours, steps = hours[kept], steps[columns]
         values, states = (lines[kept[:, None], columns] for lines in (values, states))
     else:
@@ -156,7 +177,9 @@ def history(
     return History(values, places, first_day, last_day), states
 
 
-def _steps(energies: Energies, shown: NDArray[np.int_], precision: Precision) -> NDArray[np.int_]:
+def _steps(
+    energies: Energies, shown: NDArray[np.int_], precision: Precision, burns: Burns | None
+) -> NDArray[np.int_]:
     """Steps of the share to simulate: on both sides of all jumps that matter.
 
     The response jumps at a share with which the energy retained in some hour just reaches the
@@ -165,21 +188,32 @@ def _steps(energies: Energies, shown: NDArray[np.int_], precision: Precision) ->
     steps = np.arange(STEPS + 1)
     melanin, thickness = (responses_of_shares(own, steps / STEPS, shown) for own in energies)
     responses = np.concatenate([melanin, THICKENING * thickness], axis=1)
+    if burns is not None:
+        red = REDDENING * _redness(burns, steps / STEPS, int(shown[-1]))
+        responses = np.concatenate([responses, red.astype(np.float32)], axis=1)
     return by_error(steps, responses, precision.columns, precision.response, EVEN_STEPS)
 
 
-def _shown(exposures: Exposures, end: int) -> NDArray[np.int_]:
-    """Some hours at which skin responds strongly."""
-    peaks = np.unique(np.minimum(np.append(exposures.hours + HOURS_TO_PEAK, end), end))
+def _redness(burns: Burns, shares: NDArray, end: int) -> NDArray[np.floating]:
+    """b (S, T) of shares in some hours, were the skin as it is without sun."""
+    hours = _shown(burns, end, HOURS_TO_REDNESS)
+    own = burns.dynamics
+    energies = own.retained_energies(burns.hours, burns.doses.T, hours)
+    return np.log(own.blood(energies * shares)).T
+
+
+def _shown(exposed: Exposures | Burns, end: int, later: int) -> NDArray[np.int_]:
+    """Some hours, so much later than exposures, at which skin responds strongly."""
+    peaks = np.unique(np.minimum(np.append(exposed.hours + later, end), end))
     return peaks[np.linspace(0, len(peaks) - 1, min(SHOWN, len(peaks))).astype(int)]
 
 
 def _thinned(
-    hours: NDArray[np.int_], steps: NDArray[np.int_], values: NDArray[np.float32]
+    hours: NDArray[np.int_], steps: NDArray[np.int_], values: NDArray[np.float32], most: int
 ) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
     """Rows and columns of an image that is small, and within the tolerance of this one."""
-    told = values[..., :2]
-    rows = by_error(hours, told.reshape(len(hours), -1), MOST_ROWS, TOLERANCE)
+    told = WEIGHTS * values
+    rows = by_error(hours, told.reshape(len(hours), -1), most, TOLERANCE)
     lines = np.swapaxes(told[rows], 0, 1).reshape(len(steps), -1)
     return rows, by_error(steps, lines, MOST_COLUMNS, TOLERANCE)
 

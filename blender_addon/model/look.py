@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.table import LOOK_AXES, LookAxes, SkinTable, melanin_dynamics
+from hylios.table import LOOK_AXES, LookAxes, SkinTable, melanin_kinetics
 from hylios.table.provenance import MinimalDoses
 from hylios.tanning.spread import Spread, spread_of
 
@@ -96,13 +96,15 @@ class Look:
     has_profile: bool
 
 
-def look(table: SkinTable, minimal: MinimalDoses) -> Look:
+def look(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> Look:
     """Images of a table along the states of its kinetics.
 
     Parameters
     ----------
     minimal : MinimalDoses
         Of the skin.
+    kinetics : str
+        One of `hylios.tanning.KINETICS`.
 
     Raises
     ------
@@ -114,7 +116,7 @@ def look(table: SkinTable, minimal: MinimalDoses) -> Look:
             f"the table has no plane {COLOUR}, which the skin's material needs; it has "
             f"{', '.join(table.planes)}."
         )
-    grid = grid_of(table, minimal)
+    grid = grid_of(table, minimal, kinetics)
     planes = grid.planes(table, _wanted(table))
     thin, thick = grid.thickness
     usual = np.clip((0.5 * grid.reached - thin) / (thick - thin), 0.0, 1.0)
@@ -201,15 +203,17 @@ class Grid:
         return planes
 
 
-def grid_of(table: SkinTable, minimal: MinimalDoses) -> Grid:
-    """The grid of a table along the states of its kinetics.
+def grid_of(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> Grid:
+    """The grid of a table along the states of a kinetics.
 
     Raises
     ------
     InputError
         If the table does not say how its skin makes melanin.
     """
-    spread = spread_of(melanin_dynamics(table.provenance), mmd=minimal.mmd, med=minimal.med)
+    spread = spread_of(
+        melanin_kinetics(table.provenance, kinetics), mmd=minimal.mmd, med=minimal.med
+    )
     melanin, thickness, blood = _ranges(table, spread)
     roots = _roots(*np.exp(np.divide(melanin, 2.0)))
     reached = np.interp(2.0 * np.log(roots), spread.least, spread.thicknesses)

@@ -101,6 +101,10 @@ class TanSettings:
         Days of the first and the last frame.
     biology : Biology
         What differs in the skin from that of the table.
+    kinetics : str
+        One of `hylios.tanning.KINETICS`.
+    redness : bool
+        Whether the skin reddens after the sun.
 
     Raises
     ------
@@ -114,6 +118,8 @@ class TanSettings:
     first_day: float
     last_day: float
     biology: Biology = UNCHANGED
+    kinetics: str = "thesis"
+    redness: bool = False
 
     def __post_init__(self):
         check_days(self.first_day, self.last_day)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hylios.errors import InputError
 from hylios.skin.biology import Biology
 from hylios.sun.doses import Doses
-from hylios.table import MinimalDoses, SkinTable, melanin_dynamics
+from hylios.table import MinimalDoses, SkinTable
 
 from . import catalogue, doses
 from .basis import FULL as FULL_BASIS
@@ -20,6 +20,7 @@ from .biology import table_with
 from .grid import DRAG_GRID, FULL_GRID, images_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
+from .response import Response, response_of
 from .settings import Exposure, TanSettings, check_days
 
 
@@ -69,14 +70,20 @@ def look_of(settings: TanSettings, *, rough: bool = False) -> Look:
         If the table cannot be used.
     """
     minimal = settings.minimal_doses(catalogue.provenance(settings.table))
-    return _look(settings.table, catalogue.stamp(settings.table), minimal, settings.biology, rough)
+    stamp, kinetics = catalogue.stamp(settings.table), settings.kinetics
+    return _look(settings.table, stamp, minimal, settings.biology, kinetics, rough)
 
 
 @functools.lru_cache(maxsize=16)
 def _look(
-    path: Path, stamp: tuple[int, int], minimal: MinimalDoses, biology: Biology, rough: bool
+    path: Path,
+    stamp: tuple[int, int],
+    minimal: MinimalDoses,
+    biology: Biology,
+    kinetics: str,
+    rough: bool,
 ) -> Look:
-    return look(table_with(path, biology, rough=rough), minimal)
+    return look(table_with(path, biology, rough=rough), minimal, kinetics)
 
 
 def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
@@ -91,7 +98,8 @@ def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
     minimal = settings.minimal_doses(catalogue.provenance(settings.table))
     days = settings.first_day, settings.last_day
     stamp = catalogue.stamp(settings.table)
-    return _history(settings.table, stamp, settings.exposures, minimal, days, precision)
+    how = settings.kinetics, settings.redness
+    return _history(settings.table, stamp, settings.exposures, minimal, days, how, precision)
 
 
 @functools.lru_cache(maxsize=16)
@@ -101,12 +109,13 @@ def _history(
     exposures: tuple[Exposure, ...],
     minimal: MinimalDoses,
     days: tuple[float, float],
+    how: tuple[str, bool],
     precision: Precision,
 ) -> History:
     """The history, kept: what changes only the look needs it again."""
     table = catalogue.table(path)
     received = doses.received(exposures, minimal.mmd, table.provenance)
-    return history_within(table, received, minimal, days, precision)
+    return history_within(table, received, minimal, days, precision, response_of(table, *how))
 
 
 def history_within(
@@ -115,6 +124,7 @@ def history_within(
     minimal: MinimalDoses,
     days: tuple[float, float],
     precision: Precision = FULL,
+    response: Response | None = None,
 ) -> History:
     """Simulate a skin's doses from day 0; what a table of the skin holds of it.
 
@@ -125,6 +135,8 @@ def history_within(
     days : pair of float
         First and last day to return, within 0 to LAST_DAY_LIMIT. An exposure after the last has
         no effect.
+    response : Response, optional
+        Of the skin to the doses; by the thesis alone, if not given.
 
     Raises
     ------
@@ -133,14 +145,16 @@ def history_within(
         built for a schedule that leads elsewhere.
     """
     check_days(*days)
+    response = response or response_of(table)
     over_time, states = history(
         received,
-        melanin_dynamics(table.provenance),
+        response.melanin,
         mmd=minimal.mmd,
         med=minimal.med,
         first_day=days[0],
         last_day=days[1],
         precision=precision,
+        erythema=response.erythema,
     )
     _require_held(table, states)
     return over_time
@@ -178,16 +192,18 @@ def basis_of(
         )
         for mask in range(shares.shape[1])
     ]
+    response = response_of(table, settings.kinetics, settings.redness)
     made, states = basis(
         by_mask,
         shares,
-        melanin_dynamics(table.provenance),
+        response.melanin,
         mmd=minimal.mmd,
         med=minimal.med,
         first_day=settings.first_day,
         last_day=settings.last_day,
         counts=counts,
         precision=precision,
+        erythema=response.erythema,
     )
     _require_held(table, states)
     return made
@@ -241,8 +257,9 @@ def _over_shares(
 def _require_held(table: SkinTable, states: NDArray) -> None:
     if not table.holds(states).all():
         raise InputError(
-            "the table was built for another schedule of sun and lacks tans of this one; build it "
-            "with this schedule (Export Schedule) or with none."
+            "the table was built for another schedule of sun or other kinetics and lacks tans of "
+            "this one; build it with this schedule (Export Schedule) or with none, or set Kinetics "
+            "to As in the Thesis."
         )
 
 

@@ -63,15 +63,17 @@ class BandLook:
     thickness: tuple[float, float]
 
 
-def band_look(table: SkinTable, minimal: MinimalDoses, view: View) -> BandLook:
-    """A table's skin in a view, along the states of its kinetics.
+def band_look(
+    table: SkinTable, minimal: MinimalDoses, view: View, kinetics: str = "thesis"
+) -> BandLook:
+    """A table's skin in a view, along the states of a kinetics.
 
     Raises
     ------
     InputError
         If the table lacks the band, or does not say how its skin makes melanin.
     """
-    grid = grid_of(table, minimal)
+    grid = grid_of(table, minimal, kinetics)
     bands = grid.planes(table, [PLANE])[PLANE] if PLANE in table.planes else np.empty(0)
     return BandLook(
         colour=over_states(inside_in_view(table, bands, view)),

@@ -49,11 +49,11 @@ def test_lightness_is_that_of_the_table_at_the_simulated_state():
 
 def test_words_name_the_darkest_day_and_the_day_by_which_half_is_gone():
     made = curve.curve_of(SETTINGS)
-    half = 0.5 * (made.untanned + made.lightness.min())
+    half = 0.5 * (made.untanned + made.lightness[made.darkest])
     assert made.half_gone is not None and made.half_gone > made.days[made.darkest]
     assert np.interp(made.half_gone, made.days, made.lightness) == pytest.approx(half, abs=0.01)
     darkest, gone = curve.words(made)
-    assert darkest == f"Darkest on day {made.days[made.darkest]:.0f},"
+    assert darkest == f"Darkest on day {made.darkest_day:.0f},"
     assert gone == f"half gone by day {made.half_gone:.0f}, all by {made.gone:.0f}"
     left = made.untanned - np.interp([made.gone, 60.0], made.days, made.lightness)
     assert left[0] == pytest.approx(curve.PLAIN, abs=0.01) and left[1] < curve.PLAIN
@@ -69,7 +69,7 @@ def test_half_is_gone_for_good():
     """Not where a second exposure makes the skin darker again."""
     again = replace(EXPOSURE, day=33.0, dose=22.0)
     twice = curve.curve_of(replace(SETTINGS, exposures=(EXPOSURE, again), last_day=90.0))
-    half = 0.5 * (twice.untanned + twice.lightness.min())
+    half = 0.5 * (twice.untanned + twice.lightness[twice.darkest])
     later = twice.lightness[twice.days > twice.half_gone]
     assert twice.half_gone > 43.0 and np.all(later > half)
 

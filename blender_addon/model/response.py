@@ -1,0 +1,50 @@
+"""How the skin of a table responds to the sun: its melanin, and its redness."""
+
+from dataclasses import dataclass
+
+import hylios
+from hylios.errors import InputError
+from hylios.table import LookAxes, SkinTable, melanin_kinetics, skin_of
+from hylios.tanning import ErythemaDynamics, Kinetics
+
+BLOOD = 3
+"""Which axis of a table is that of the blood."""
+
+
+@dataclass(frozen=True)
+class Response:
+    """Dynamics of a skin.
+
+    Attributes
+    ----------
+    melanin : MelaninDynamics or MeasuredDynamics
+    erythema : ErythemaDynamics or None
+        None where the skin does not redden.
+    """
+
+    melanin: Kinetics
+    erythema: ErythemaDynamics | None
+
+
+def response_of(table: SkinTable, kinetics: str = "thesis", redness: bool = False) -> Response:
+    """How a table's skin responds; it reddens only where the table holds blood.
+
+    Raises
+    ------
+    InputError
+        If the table does not say how its skin makes melanin by that kinetics.
+    """
+    reddens = redness and holds_redness(table)
+    erythema = hylios.erythema(skin_of(table.provenance)) if reddens else None
+    return Response(melanin_kinetics(table.provenance, kinetics), erythema)
+
+
+def holds_redness(table: SkinTable) -> bool:
+    """Whether a table tells how a skin looks with more blood, and what skin that is."""
+    if not isinstance(table.axes, LookAxes) or len(table.axes.knots[BLOOD]) < 2:
+        return False
+    try:
+        skin_of(table.provenance)
+    except InputError:
+        return False
+    return True

@@ -1,0 +1,190 @@
+"""Redness and the measured kinetics, from the doses to what a shader samples."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sampled import coordinates, looked_up
+
+import hylios
+from blender_addon.model import basis, catalogue, curve, history
+from blender_addon.model.look import look
+from blender_addon.model.response import holds_redness, response_of
+from blender_addon.model.settings import Exposure, TanSettings
+from blender_addon.model.tan import history_of
+from hylios.adding.colours import colours
+from hylios.colour_difference import ciede2000, lab
+from hylios.skin import whole_thickening
+from hylios.sun.doses import joined, of_sed
+from hylios.table import MinimalDoses, skin_of
+from hylios.tanning import Exposures, states_at
+
+TABLE = catalogue.table(catalogue.shipped_path("II"))
+SKIN = skin_of(TABLE.provenance)
+MINIMAL = {"mmd": SKIN.mmd, "med": SKIN.med}
+DOSES = [(10, 3.0 * SKIN.med), (34, 2.0 * SKIN.med), (130, 2.0 * SKIN.med), (300, 4.0 * SKIN.med)]
+SOON = np.r_[10:90, 130:190, 300:400, 400:1440:20]
+"""Hours, most of them soon after a dose."""
+
+
+def simulated(shares: np.ndarray, hours: np.ndarray, kinetics: str) -> np.ndarray:
+    """States (N, 5) of places, each at an hour of its own."""
+    response = response_of(TABLE, kinetics, True)
+    exposures = Exposures(
+        [hour for hour, _ in DOSES], shares[:, None] * np.array([dose for _, dose in DOSES])
+    )
+    times, which = np.unique(hours, return_inverse=True)
+    states = states_at(
+        exposures, response.melanin, times=times, erythema=response.erythema, **MINIMAL
+    )
+    return states[np.arange(len(shares)), which]
+
+
+def over_time(kinetics: str, precision: history.Precision) -> history.History:
+    response = response_of(TABLE, kinetics, True)
+    return history.history(
+        joined([of_sed(hour, dose) for hour, dose in DOSES]),
+        response.melanin,
+        first_day=0.0,
+        last_day=60.0,
+        precision=precision,
+        erythema=response.erythema,
+        **MINIMAL,
+    )[0]
+
+
+@pytest.mark.parametrize("precision", [history.FULL, history.DRAG])
+@pytest.mark.parametrize("kinetics", ["thesis", "measured"])
+def test_history_against_the_simulation_by_the_hour(kinetics, precision):
+    """b of .01 is .05 CIEDE2000."""
+    random = np.random.default_rng(1)
+    shares, hours = random.random(300), random.choice(SOON, 300)
+    seen = coordinates(over_time(kinetics, precision), shares, hours / 24.0)
+    states = whole_thickening(simulated(shares, hours, kinetics))
+    expected = np.log(np.stack([states[:, :3].sum(axis=1), *states[:, 3:].T], axis=1))
+    error = np.abs(seen - expected)
+    assert expected[:, 2].max() > 1.0
+    assert error.mean() < 0.003
+    assert np.all(np.quantile(error, 0.99, axis=0) < [0.012, 0.012, 0.02])
+
+
+@pytest.mark.parametrize("kinetics", ["thesis", "measured"])
+def test_what_a_shader_shows_against_solving_the_skin(kinetics):
+    """Table, images and the thickness that the dermis lacks, all in one."""
+    random = np.random.default_rng(2)
+    shares, hours = random.random(16), np.sort(random.choice(SOON, 16))
+    image = look(TABLE, MinimalDoses(**MINIMAL), kinetics)
+    places = coordinates(over_time(kinetics, history.FULL), shares, hours / 24.0)
+    shown = looked_up(image, image.colour, places)
+    skin = replace(SKIN, kinetics=kinetics, thickening="epidermis")
+    exact = colours(skin, simulated(shares, hours, kinetics)).subsurface
+    error = ciede2000(lab(shown), lab(exact))
+    assert error.mean() < 0.12
+    assert error.max() < 0.25
+
+
+def test_a_basis_holds_blood_too():
+    random = np.random.default_rng(3)
+    shares = random.random((300, 2))
+    response = response_of(TABLE, "measured", True)
+    made, _ = basis.basis(
+        [of_sed(10, DOSES[0][1]), of_sed(130, DOSES[2][1])],
+        shares,
+        response.melanin,
+        first_day=0.0,
+        last_day=30.0,
+        erythema=response.erythema,
+        **MINIMAL,
+    )
+    hours = random.choice(SOON[SOON < 700], 300)
+    seen = basis.shown(made, made.coefficients, hours / 24.0)
+    for point in range(0, 300, 15):
+        states = whole_thickening(
+            states_at(
+                Exposures([10, 130], shares[point] * [DOSES[0][1], DOSES[2][1]]),
+                response.melanin,
+                times=[hours[point]],
+                erythema=response.erythema,
+                **MINIMAL,
+            )
+        )
+        expected = np.log([states[0, :3].sum(), *states[0, 3:]])
+        assert np.all(np.abs(seen[point] - expected) < [0.03, 0.05, 0.05])
+
+
+def test_a_table_without_blood_shows_no_redness(former_path):
+    former = catalogue.table(former_path)
+    assert not holds_redness(former)
+    assert response_of(former, redness=True).erythema is None
+    assert response_of(TABLE, redness=True).erythema == hylios.erythema(SKIN)
+    assert response_of(TABLE).erythema is None
+
+
+SUN = Exposure(
+    day=0.0,
+    unit="SED",
+    dose=3.0 * SKIN.med,
+    multiple=2.0,
+    uv_index=8.0,
+    duration=2.0,
+    latitude=40.0,
+    month=7,
+    day_of_month=15,
+    from_hour=11.0,
+    to_hour=15.0,
+    sunscreen=False,
+    spf=30.0,
+    sunscreen_amount=2.0,
+)
+SETTINGS = TanSettings(
+    table=catalogue.shipped_path("II"),
+    own_doses=None,
+    exposures=(SUN,),
+    first_day=0.0,
+    last_day=60.0,
+    kinetics="measured",
+    redness=True,
+)
+
+
+def test_the_curve_tells_redness_and_tan_apart():
+    made = curve.curve_of(SETTINGS)
+    without = curve.curve_of(replace(SETTINGS, redness=False))
+    red = int(made.redness.argmax())
+    assert 0.5 < made.days[red] < 1.5 and made.redness[red] > 4.0
+    assert not without.redness.any()
+    # The tan is that of the same melanin: without redness the thicker dermis adds a little.
+    assert np.abs(made.lightness - without.lightness).max() < 0.6
+    assert made.darkest_day == pytest.approx(without.darkest_day, abs=0.5)
+    assert 4.0 < made.darkest_day < 8.0
+    (burn,) = made.burns
+    assert burn[0] < 0.5 and 2.0 < burn[1] < 8.0
+    assert curve.words(made)[0] == f"Burnt on days 0 to {burn[1]:.0f}"
+    assert "Burnt" not in " ".join(curve.words(without))
+
+
+def test_the_curve_names_several_burns_and_none_of_dark_skin():
+    again = replace(SETTINGS, exposures=(SUN, replace(SUN, day=20.0, dose=6.0 * SKIN.med)))
+    assert curve.words(curve.curve_of(again))[0].startswith("Burnt 2 times, days 0 to 2")
+    dark = replace(SETTINGS, table=catalogue.shipped_path("VI"))
+    assert not curve.curve_of(dark).burns
+
+
+def test_the_picture_has_a_red_line_where_skin_is_red():
+    made = curve.curve_of(SETTINGS)
+    pixels = curve.picture(made, made.colours)
+
+    def drawn(colour: np.ndarray) -> int:
+        return int(np.all(np.abs(pixels - colour) < 0.02, axis=2).sum())
+
+    assert drawn(curve.LINE) > 100 and drawn(curve.RED_LINE) > 20
+    plain = curve.picture(curve.curve_of(replace(SETTINGS, redness=False)), made.colours)
+    assert not np.all(np.abs(plain - curve.RED_LINE) < 0.02, axis=2).any()
+
+
+def test_history_differs_by_kinetics_and_redness():
+    thesis = replace(SETTINGS, kinetics="thesis", redness=False)
+    first, red = history_of(thesis).coordinates, history_of(SETTINGS).coordinates
+    assert not first[..., 2].any()
+    assert red[..., 2].max() > 1.0
+    assert history_of(thesis).coordinates is first

@@ -99,7 +99,8 @@ def _report_grid(
 
     def work():
         given = grid.shares_of_grid(masks, steps)
-        made = basis.basis(received, given, skin.dynamics, precision=precision.basis, **span)[0]
+        told = {"counts": grid.counts_of_grid(given), "precision": precision.basis}
+        made = basis.basis(received, given, skin.dynamics, **told, **span)[0]
         return made, grid.images_of(made.coefficients, masks, steps)
 
     (made, images), milliseconds = _timed(work)

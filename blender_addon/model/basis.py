@@ -242,26 +242,34 @@ def _shapes(
     curves: NDArray[np.float32], counts: NDArray[np.float64], precision: BasisPrecision
 ) -> tuple[Shapes, NDArray[np.float32], float]:
     """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
+    those = np.arange(min(TRAINING, len(curves)))
     *first, last = precision.ranks
     for rank in first:
-        shapes, coefficients, errors = _of_rank(curves, counts, rank, precision)
-        if _is_enough(errors, counts, errors.max(axis=1)):
-            return shapes, coefficients, float(errors.max())
-    shapes, coefficients, errors = _of_rank(curves, counts, last, precision)
+        shapes = _fitted(curves, counts, those, rank, precision)
+        # What does not suffice for the curves it was fitted to does not for all.
+        if _is_enough(_left(shapes, curves[those])[1], counts[those]):
+            shapes, coefficients, errors = _of_all(shapes, curves, counts, precision)
+            if _is_enough(errors, counts):
+                return shapes, coefficients, float(errors.max())
+    shapes = _fitted(curves, counts, those, last, precision)
+    shapes, coefficients, errors = _of_all(shapes, curves, counts, precision)
     return shapes, coefficients, float(errors.max())
 
 
-def _of_rank(
-    curves: NDArray[np.float32], counts: NDArray[np.float64], rank: int, precision: BasisPrecision
+def _of_all(
+    shapes: Shapes,
+    curves: NDArray[np.float32],
+    counts: NDArray[np.float64],
+    precision: BasisPrecision,
 ) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
-    """Shapes of some curves, once more with the worst of the others; coefficients; all errors."""
-    those = np.arange(min(TRAINING, len(curves)))
-    fitted = _fitted(curves, counts, those, rank, precision)
-    worst = fitted[2].max(axis=1)
-    if worst.max() <= WANTED["most"] or len(those) == len(curves):
-        return fitted
-    those = np.union1d(those, np.argsort(-worst)[:WORST])
-    return _fitted(curves, counts, those, rank, precision)
+    """Shapes fitted once more with the worst curves; coefficients and errors of all."""
+    coefficients, errors = _left(shapes, curves)
+    worst = errors.max(axis=1)
+    if worst.max() <= WANTED["most"] or len(curves) <= TRAINING:
+        return shapes, coefficients, errors
+    those = np.union1d(np.arange(TRAINING), np.argsort(-worst)[:WORST])
+    shapes = _fitted(curves, counts, those, len(shapes.shapes), precision)
+    return shapes, *_left(shapes, curves)
 
 
 def _fitted(
@@ -270,16 +278,22 @@ def _fitted(
     those: NDArray[np.int_],
     rank: int,
     precision: BasisPrecision,
-) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
-    """Shapes of those curves; coefficients and errors of all."""
-    shapes = principal_shapes(
-        curves[those], rank, np.asarray(counts[those] ** 0.25, float), precision.rounds
-    )
+) -> Shapes:
+    """Shapes of some curves."""
+    weights = np.asarray(counts[those] ** 0.25, float)
+    return principal_shapes(curves[those], rank, weights, precision.rounds)
+
+
+def _left(
+    shapes: Shapes, curves: NDArray[np.float32]
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Coefficients of curves, and the errors that are left."""
     coefficients = shapes.coefficients(curves)
-    return shapes, coefficients, np.abs(shapes.curves(coefficients) - curves)
+    return coefficients, np.abs(shapes.curves(coefficients) - curves)
 
 
-def _is_enough(errors: NDArray, counts: NDArray, worst: NDArray) -> bool:
+def _is_enough(errors: NDArray, counts: NDArray) -> bool:
+    worst = errors.max(axis=1)
     mean = np.average(errors.mean(axis=1), weights=counts)
     order = np.argsort(worst)
     passed = np.cumsum(counts[order]) / counts.sum()

@@ -32,6 +32,9 @@ from .basis import DRAG, FULL, BasisPrecision
 CHANNELS = 3
 """Coefficients of a texel."""
 
+ENDS = 16
+"""How often a share of 0 or 1 counts where one between counts once."""
+
 SLICED = 2
 """With more masks an image has slices."""
 
@@ -70,6 +73,11 @@ def shares_of_grid(masks: int, steps: int) -> NDArray[np.float64]:
     """Shares (steps^masks, masks) at all steps; the first mask's change fastest."""
     axes = np.meshgrid(*[np.linspace(0.0, 1.0, steps)] * masks, indexing="ij")
     return np.stack(axes[::-1], axis=-1).reshape(-1, masks)
+
+
+def counts_of_grid(shares: NDArray[np.float64]) -> NDArray[np.int_]:
+    """How often shares (N, M) of a grid count, (N,): most of a body is bare or covered."""
+    return ENDS ** np.count_nonzero((shares == 0.0) | (shares == 1.0), axis=1)
 
 
 def images_of(coefficients: NDArray, masks: int, steps: int) -> list[NDArray[np.float32]]:

@@ -17,7 +17,7 @@ from . import catalogue, doses
 from .basis import FULL as FULL_BASIS
 from .basis import Basis, BasisPrecision, basis
 from .biology import table_with
-from .grid import DRAG_GRID, FULL_GRID, images_of, shares_of_grid
+from .grid import DRAG_GRID, FULL_GRID, counts_of_grid, images_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
 from .response import Response, response_of
@@ -250,7 +250,8 @@ def _over_shares(
 ) -> BasisOverShares:
     masks, precision = len(set(which)), DRAG_GRID if rough else FULL_GRID
     steps = precision.steps[masks]
-    made = basis_of(settings, which, shares_of_grid(masks, steps), precision.basis)
+    shares = shares_of_grid(masks, steps)
+    made = basis_of(settings, which, shares, precision.basis, counts_of_grid(shares))
     return BasisOverShares(made, images_of(made.coefficients, masks, steps), steps)
 
 

@@ -197,6 +197,19 @@ def add_kinetics_argument(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_erythema_argument(parser: argparse.ArgumentParser, help_text: str) -> None:
+    """Add `--erythema`."""
+    parser.add_argument("--erythema", action="store_true", help=help_text)
+
+
+def note_redness() -> None:
+    """Say on standard error that redness is an estimate."""
+    print(
+        "note: redness is an estimate but for the hours and doses to which it was fitted",
+        file=sys.stderr,
+    )
+
+
 def add_work_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of every simulation, which `require_work` checks."""
     parser.add_argument("--seed", type=int, default=1, help="seed of random numbers (default: 1)")
@@ -296,20 +309,31 @@ def wavelength_range(text: str) -> np.ndarray:
     InputError
         If the text is neither, or gives more than `MOST_WAVELENGTHS`.
     """
+    return number_range(text, "wavelengths", "nm", MOST_WAVELENGTHS)
+
+
+def number_range(text: str, what: str, unit: str, most: int) -> np.ndarray:
+    """At most so many numbers from FIRST:LAST:STEP, with both ends, or from a list a,b,c.
+
+    Raises
+    ------
+    InputError
+        If the text is neither, or gives more.
+    """
     separator = ":" if ":" in text else ","
     try:
         numbers = [plain_number(part) for part in text.split(separator)]
     except ValueError:
         numbers = []
-    if separator == "," and 0 < len(numbers) <= MOST_WAVELENGTHS:
+    if separator == "," and 0 < len(numbers) <= most:
         return np.array(numbers)
     if separator == ":" and len(numbers) == 3:
         first, last, step = numbers
-        if step > 0 and first <= last and (last - first) / step < MOST_WAVELENGTHS:
+        if step > 0 and first <= last and (last - first) / step < most:
             return first + step * np.arange(int((last - first) / step + 1e-9) + 1)
     raise InputError(
-        f"wavelengths are {text!r}; expected FIRST:LAST:STEP with a positive step, or a list of "
-        f"numbers, in nm, at most {MOST_WAVELENGTHS}."
+        f"{what} are {text!r}; expected FIRST:LAST:STEP with a positive step, or a list of "
+        f"numbers, in {unit}, at most {most}."
     )
 
 

@@ -1,10 +1,11 @@
-"""`hylios swatch`: the colours of spectra side by side, as PNG."""
+"""`hylios swatch`: colours of spectra, or of a skin over the days of a tan, as PNG."""
 
 import argparse
 from pathlib import Path
 
 import numpy as np
 
+from hylios.commands.day_row import add_row_arguments, require_no_tan, write_row
 from hylios.commands.shell import (
     add_skin_arguments,
     add_work_arguments,
@@ -19,10 +20,12 @@ from hylios.readers.spectrum import NamedSpectrum, read_spectra
 
 DESCRIPTION = """\
 Draws a square for every CSV file that `hylios reflectance` printed, or one for a specimen that it
-simulates. A visible swatch is the colour under D65. A swatch of the ultraviolet (250 to 400 nm) or
-the infrared (700 to 2500 nm) is the mean reflectance as a grey, tinted violet or red; the tint is
-this project's choice.
+simulates; with --days a row over the days of a tan, and prints its colours as CSV. A visible swatch
+is the colour under D65. A swatch of the ultraviolet (250 to 400 nm) or the infrared (700 to 2500
+nm) is the mean reflectance as a grey, tinted violet or red; the tint is this project's choice.
 """
+
+USUAL_SIZE = 256
 
 MOST_PIXELS = 2**26
 """Most pixels of a picture: a quarter of a gigabyte while it is written."""
@@ -38,6 +41,7 @@ def add_to(commands) -> None:
         "files", nargs="*", type=Path, metavar="FILE.csv", help="spectra; - is standard input"
     )
     add_skin_arguments(parser)
+    add_row_arguments(parser)
     add_work_arguments(parser)
     parser.add_argument(
         "--band",
@@ -55,7 +59,7 @@ def add_to(commands) -> None:
         "--rays", type=int, default=10_000, help="rays for a wavelength (default: 10000)"
     )
     parser.add_argument(
-        "--size", type=int, default=256, help="side of a square in pixels (default: 256)"
+        "--size", type=int, help="side of a square in pixels (default: 256; 48 in a row of days)"
     )
     parser.add_argument("--force", action="store_true", help="replace an existing file")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png")
@@ -64,11 +68,17 @@ def add_to(commands) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Read or simulate, and write."""
     require_target(arguments.output, (".png",), arguments.force)
-    size = require_whole("size", arguments.size, 1, 4096)
-    if arguments.files and (
-        arguments.specimen or arguments.set or arguments.reading or arguments.own_spectrum
-    ):
+    usual = USUAL_SIZE if arguments.size is None else arguments.size
+    size = require_whole("size", usual, 1, 4096)
+    of_specimen = (arguments.specimen, arguments.skin, arguments.set, arguments.days)
+    if arguments.files and any([*of_specimen, arguments.reading, arguments.own_spectrum]):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
+    if arguments.days is not None:
+        if arguments.band != "visible":
+            raise InputError(f"band is {arguments.band}; allowed with --days is visible.")
+        write_row(arguments)
+        return
+    require_no_tan(arguments)
     _require_room(max(len(arguments.files), 1), size)
     spectra = read_spectra(arguments.files) if arguments.files else [_simulated(arguments)]
     note_omissions(spectra)

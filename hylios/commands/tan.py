@@ -1,7 +1,6 @@
 """`hylios tan`: melanin, thickness and blood over time after doses of ultraviolet, as CSV."""
 
 import argparse
-import sys
 from itertools import chain
 
 from hylios.adding.redness import erythema
@@ -11,13 +10,17 @@ from hylios.commands.dose_arguments import (
     chosen_doses,
     skin_in_light,
 )
-from hylios.commands.shell import add_kinetics_argument, number, print_rows
+from hylios.commands.shell import (
+    add_erythema_argument,
+    add_kinetics_argument,
+    note_redness,
+    number,
+    print_rows,
+)
 from hylios.commands.streams import progress
 from hylios.tanning import simulate_in_parts
 
 COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
-
-ESTIMATE = "note: redness is an estimate but for the hours and doses to which it was fitted"
 
 
 def add_to(commands) -> None:
@@ -26,10 +29,9 @@ def add_to(commands) -> None:
     parser.set_defaults(command=run)
     add_skin_in_light_arguments(parser)
     add_kinetics_argument(parser)
-    parser.add_argument(
-        "--erythema",
-        action="store_true",
-        help="print the blood of the dermis too, relative to hour 0: how red skin gets after doses "
+    add_erythema_argument(
+        parser,
+        "print the blood of the dermis too, relative to hour 0: how red skin gets after doses "
         "beyond its MED",
     )
     add_exposure_arguments(parser)
@@ -57,7 +59,7 @@ def run(arguments: argparse.Namespace) -> None:
     )
     first = next(parts)
     if reddening is not None:
-        print(ESTIMATE, file=sys.stderr)
+        note_redness()
     print(",".join(COLUMNS if reddening is None else (*COLUMNS, "blood")))
     with progress("tan", int(arguments.hours / step) + 1, " rows") as advance:
         for part in chain([first], parts):

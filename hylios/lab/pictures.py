@@ -5,6 +5,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
 
@@ -13,6 +14,8 @@ from hylios.readers.spectrum import NamedSpectrum
 
 SIZE_INCHES, DOTS_PER_INCH = (8.0, 4.8), 150
 BAND_OPACITY = 0.25
+LABEL_HEIGHT, LETTER_WIDTH, LABEL_DPI = 24, 10, 100
+"""Pixels of a label under a swatch, and dots per inch of its letters."""
 
 
 def spectra_figure(spectra: Sequence[NamedSpectrum]) -> Figure:
@@ -65,6 +68,27 @@ def swatches(colours: np.ndarray, size: int) -> np.ndarray:
     """Pixels (size, N size, 3), uint8, of squares side by side from sRGB (N, 3), 0 to 1."""
     row = np.round(255.0 * np.asarray(colours)).astype(np.uint8)
     return np.repeat(np.repeat(row, size, axis=0)[None], size, axis=0)
+
+
+def labelled(pixels: np.ndarray, labels: Sequence[str]) -> np.ndarray:
+    """Pixels (H + LABEL_HEIGHT, W, 3), uint8, of swatches side by side with labels under them.
+
+    Where they have no room, every second, fifth or tenth is there, and so on.
+    """
+    width = pixels.shape[1]
+    size = width // len(labels)
+    figure = Figure(figsize=(width / LABEL_DPI, LABEL_HEIGHT / LABEL_DPI), dpi=LABEL_DPI)
+    canvas = FigureCanvasAgg(figure)
+    room = LETTER_WIDTH * (1 + max(map(len, labels)))
+    steps = (first * 10**power for power in range(9) for first in (1, 2, 5))
+    step = next(step for step in steps if step * size >= room or step >= len(labels))
+    for number in range(0, len(labels), step):
+        middle = (number + 0.5) * size
+        inside = min(max(middle, 0.5 * room), max(width - 0.5 * room, 0.5 * width))
+        figure.text(inside / width, 0.5, labels[number], ha="center", va="center")
+    canvas.draw()
+    band = np.asarray(canvas.buffer_rgba())[:LABEL_HEIGHT, :width, :3]
+    return np.concatenate([pixels, band])
 
 
 def write_pixels(pixels: np.ndarray, target: Path) -> None:

@@ -11,7 +11,8 @@ from .model import doses
 from .model.curve import curve_of, is_seen
 from .model.film import film_of
 from .model.look import untanned_colour
-from .model.regions import kinds
+from .model.regions import shown as shown_region
+from .model.regions import spots
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
@@ -71,7 +72,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         layout_1.take_over(skin.group, skin.trees(), changes)
         made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
         timed = timing.key(obj, scene, days, frames, changes)
-        regions.show(obj, skin.group, _regions(settings), unit, changes)
+        regions.show(obj, skin.group, _regions(settings, values), unit, changes)
         sampled, told = own_colour.prepare(obj, skin, tan.look, _sampled(tan, obj, unit), changes)
         replaced = nodes.update(skin.group, sampled, changes)
         mask = settings.shown_mask()
@@ -229,16 +230,23 @@ def _require_masks(obj: bpy.types.Object) -> None:
         masks.require_usable(obj, mask)
 
 
-def _regions(settings: SkinTanSettings) -> list[regions.Placed]:
+def _regions(settings: SkinTanSettings, values: TanSettings) -> list[regions.Placed]:
     """The regions of settings, as nodes show them."""
     placed = []
     for item in settings.shown_regions():
-        kind = kinds()[item.kind.lower()]
-        spots = Spots(**vars(kind.spots)) if item.has_spots() else None
-        numbers = kind.melanin, kind.blood, kind.tan, item.strength
-        placed.append(
-            regions.Placed(Region(item.label(), *numbers, spots), masks.Mask.of(item.mask))
+        kind = item.kind.lower()
+        shown = shown_region(values, kind, item.strength)
+        own = shown.region
+        told = Region(
+            label=item.label(),
+            melanin=round(own.melanin, 4),
+            blood=round(own.blood, 4),
+            tan=own.tan,
+            strength=item.strength,
+            spots=Spots(**vars(spots()[kind])) if item.has_spots() else None,
+            colour=shown.colour,
         )
+        placed.append(regions.Placed(told, masks.Mask.of(item.mask)))
     return placed
 
 

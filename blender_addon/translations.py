@@ -66,7 +66,12 @@ GERMAN = {
     "Thickness": "Dicke",
     # regions
     "Freckles": "Sommersprossen",
+    "Age Spots": "Altersflecken",
     "Moles": "Muttermale",
+    "Cheeks": "Wangen",
+    "Forehead": "Stirn",
+    "Ears": "Ohren",
+    "Fingers": "Finger",
     "Palms and Soles": "Handflächen und Sohlen",
     "Lips": "Lippen",
     "Flush": "Gerötete Haut",

@@ -1,20 +1,33 @@
-"""How regions of skin differ from the skin around them: melanin, blood, and how they tan.
+"""Regions of skin for nodes: what differs in an object's skin, and spots that come by themselves.
 
-A region of weight w (its strength times its mask) has the melanin exp(u (1 + (t - 1) min(w, 1)))
-f^w, where u is the tan around it as a logarithm, f the region's `melanin` and t its `tan`; without
-melanin (f = 0) it is exp(u) (1 - w). Blood is changed by its factor to the power w. Regions that
-lie over each other multiply. In spots w is the strength, more in some and less in others; by the
-mask there are fewer of them.
+How regions differ is `hylios.skin.regions`'s. In spots the weight is the strength, more in some and
+less in others; by the mask there are fewer of them.
 """
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+
+from hylios.errors import InputError
+from hylios.region_colour import colour_factor
+from hylios.skin.biology import Biology
+from hylios.skin.regions import Region, region
+from hylios.table import skin_of
+from hylios.table.axes import LookAxes
+from hylios.table.provenance import own_spectra
+
+from . import catalogue
+from .settings import TanSettings
 
 MOST_STRENGTH = 2.0
+
+USUAL_MELANIN = 0.03
+"""Share of the epidermis, of light skin: what is taken of a table that does not tell it."""
+
+LEAST_CHANGE = 0.003
+"""Change of a colour's red, green and blue that is left out."""
 
 
 @dataclass(frozen=True)
@@ -49,60 +62,76 @@ class Spots:
 
 
 @dataclass(frozen=True)
-class Kind:
-    """A kind of region.
+class Shown:
+    """A kind of region in a skin.
 
     Attributes
     ----------
-    melanin, blood : float
-        Over those around it, without sun, at strength 1.
-    tan : float
-        Logarithm of the melanin that sun adds, over that around it.
-    marks : str
-        Of the three numbers and of the spots, one letter for each: A of a publication, F fitted to
-        spectra, E an estimate, - no change.
-    spots : Spots or None
-        Of kinds that need no mask.
+    region : Region
+    colour : 3 floats
+        Linear Rec.709 at weight 1 over what the skin's table has at its melanin and blood.
     """
 
-    melanin: float
-    blood: float
-    tan: float
-    marks: str
-    spots: Spots | None = None
+    region: Region
+    colour: tuple[float, float, float]
 
-    @property
-    def is_estimate(self) -> bool:
-        """Whether one of its numbers is."""
-        return "E" in self.marks
 
-    def of_state(
-        self, u: ArrayLike, b: ArrayLike, weight: ArrayLike
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Melanin over that of untanned skin, and logarithm of blood, of a region of a weight."""
-        u, b, weight = (np.asarray(values, float) for values in (u, b, weight))
-        blood = b + weight * np.log(self.blood)
-        if self.melanin == 0.0:
-            return np.asarray(np.exp(u) * np.maximum(1.0 - weight, 0.0), float), blood
-        exponent = 1.0 + (self.tan - 1.0) * np.minimum(weight, 1.0)
-        return np.exp(u * exponent) * self.melanin**weight, blood
+def shown(settings: TanSettings, kind: str, strength: float) -> Shown:
+    """A kind of region in the skin of settings, for weights up to a strength.
+
+    Parameters
+    ----------
+    kind : str
+        One of `hylios.skin.regions.REGIONS`.
+
+    Raises
+    ------
+    InputError
+        If the table cannot be used, or the skin cannot be solved.
+    """
+    stamp = catalogue.stamp(settings.table)
+    return _shown(settings.table, stamp, settings.biology, kind, strength)
+
+
+@functools.lru_cache(maxsize=64)
+def _shown(
+    path: Path, stamp: tuple[int, int], biology: Biology, kind: str, strength: float
+) -> Shown:
+    table = catalogue.table(path)
+    try:
+        skin = skin_of(table.provenance)
+    except InputError:  # an early table: it does not tell its skin
+        return Shown(region(kind, USUAL_MELANIN), (1.0, 1.0, 1.0))
+    changed = replace(skin, specimen=biology.of(skin.specimen))
+    own = region(kind, changed.specimen.pigmentation)
+    if not isinstance(table.axes, LookAxes) or own_spectra(table.provenance):
+        return Shown(own, (1.0, 1.0, 1.0))
+    factor = colour_factor(changed, table.axes, own, strength)
+    if np.abs(factor - 1.0).max() < LEAST_CHANGE:
+        return Shown(own, (1.0, 1.0, 1.0))
+    red, green, blue = (float(round(it, 4)) for it in factor ** (1.0 / strength))
+    return Shown(own, (red, green, blue))
 
 
 @functools.cache
-def kinds() -> dict[str, Kind]:
-    """Kinds of region by name, from `regions.csv`."""
-    text = Path(__file__).with_name("regions.csv").read_text(encoding="utf-8")
+def spots() -> dict[str, Spots]:
+    """Spots of the kinds of region that need no mask."""
+    return {row["kind"]: Spots(*(float(row[name]) for name in _NUMBERS)) for row in _rows()}
+
+
+@functools.cache
+def is_estimate(kind: str) -> bool:
+    """Whether one of a kind's numbers is."""
+    marks = {row["kind"]: row["mark"] for row in _rows()}
+    return region(kind, USUAL_MELANIN).is_estimate or marks.get(kind) == "E"
+
+
+_NUMBERS = ("least_mm", "largest_mm", "edge_mm", "apart_mm", "held")
+
+
+def _rows() -> list[dict[str, str]]:
+    text = Path(__file__).with_name("spots.csv").read_text(encoding="utf-8")
     titles, *lines = [
         line.split(",") for line in text.splitlines() if not line.startswith("#") and line
     ]
-    rows = [dict(zip(titles, line, strict=True)) for line in lines]
-    return {row["kind"]: _kind(row) for row in rows}
-
-
-def _kind(row: dict[str, str]) -> Kind:
-    marks = "".join(row[f"{name}_mark"] for name in ("melanin", "blood", "tan", "spots"))
-    spots = None
-    if row["least_mm"]:
-        names = ("least_mm", "largest_mm", "edge_mm", "apart_mm", "held")
-        spots = Spots(*(float(row[name]) for name in names))
-    return Kind(float(row["melanin"]), float(row["blood"]), float(row["tan"]), marks, spots)
+    return [dict(zip(titles, line, strict=True)) for line in lines]

@@ -13,8 +13,8 @@ class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.add_region"
     bl_label = "Add Region"
     bl_description = (
-        "Add freckles, moles, palms and soles, lips, flush or vitiligo. Freckles and moles come by "
-        "themselves; the others lie where their mask is"
+        "Add freckles, age spots, moles, cheeks, palms and soles, lips, vitiligo or others. Spots "
+        "come by themselves; the others lie where their mask is"
     )
     bl_options = {"REGISTER", "UNDO"}
 

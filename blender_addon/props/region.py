@@ -5,29 +5,37 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty, StringProperty
 
-from ..model.regions import MOST_STRENGTH, kinds
+from ..model.regions import MOST_STRENGTH, is_estimate, spots
 from .mask import CHANNEL, UV_MAP, show_mask, take_image, take_source, usable_names
 
 KINDS = (
-    ("FRECKLES", "Freckles", "Spots of 1 to 3 mm that tan more than the skin around them"),
-    ("MOLES", "Moles", "Dark spots of 2 to 5 mm that do not tan"),
-    ("PALMS", "Palms and Soles", "Redder skin, in darker people paler, that does not tan"),
-    ("LIPS", "Lips", "Much more blood; the melanin is that of the skin around them"),
-    ("FLUSH", "Flush", "More blood, as in cheeks, nose and ears"),
-    ("VITILIGO", "Vitiligo", "No melanin, so no tan"),
+    ("FRECKLES", 0, "Freckles", "Spots of 1 to 3 mm that tan more than the skin around them"),
+    ("LENTIGINES", 6, "Age Spots", "Spots of 3 to 8 mm (lentigines) that do not fade with a tan"),
+    ("MOLES", 1, "Moles", "Dark spots of 2 to 5 mm that do not tan"),
+    ("CHEEKS", 7, "Cheeks", "Redder than an inner arm and brighter below, as people's cheeks"),
+    ("FOREHEAD", 8, "Forehead", "Redder than an inner arm and browner, as people's foreheads"),
+    ("EARS", 9, "Ears", "Much redder than an inner arm, as people's ear lobes"),
+    ("FLUSH", 4, "Flush", "More blood, as in cheeks, nose and ears"),
+    ("LIPS", 3, "Lips", "Much more blood; the melanin is that of the skin around them"),
+    ("FINGERS", 10, "Fingers", "Redder and brighter below, as people's ring fingers"),
+    ("PALMS", 2, "Palms and Soles", "Redder skin, in darker people paler, that does not tan"),
+    ("VITILIGO", 5, "Vitiligo", "No melanin, so no tan"),
 )
-"""Kinds of region, the names of `model.regions.kinds` in capitals."""
+"""Kinds of region: their names in `hylios.skin.regions` in capitals, and the numbers by which files
+hold them."""
 
 
 def _told(name: str, text: str) -> str:
     """With a word on what nobody has measured."""
-    return f"{text}. How much is an estimate" if kinds()[name.lower()].is_estimate else text
+    return f"{text}. How much is an estimate" if is_estimate(name.lower()) else text
 
 
-KIND_ITEMS = tuple((name, label, _told(name, text)) for name, label, text in KINDS)
+KIND_ITEMS = tuple(
+    (name, label, _told(name, text), "NONE", number) for name, number, label, text in KINDS
+)
 
 
-LABELS = {name: label for name, label, _ in KINDS}
+LABELS = {name: label for name, _, label, _ in KINDS}
 
 
 class SkinTanRegionMask(bpy.types.PropertyGroup):
@@ -96,7 +104,7 @@ class SkinTanRegion(bpy.types.PropertyGroup):
 
     def has_spots(self) -> bool:
         """Whether spots come by themselves."""
-        return not self.painted and kinds()[self.kind.lower()].spots is not None
+        return not self.painted and self.kind.lower() in spots()
 
 
 def is_shown(region: Any) -> bool:

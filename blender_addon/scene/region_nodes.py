@@ -15,15 +15,17 @@ import bpy
 from . import mask_nodes, nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
-from .plan import ROLE_KEY, Role, math_role
+from .plan import ROLE_KEY, Role, math_role, vector_role
 
 SHOWN_KEY = "skin_tan_regions"
 """Custom property of the group: the regions for which it was made."""
 
+LIGHT = "Light"
 OUTPUTS = {
     "Melanin": "Melanin over that of the skin around it, without sun",
     "Blood": "Logarithm of blood over that of the skin around it",
     "Tan": "Logarithm of the melanin that sun adds, over that around it",
+    LIGHT: "Colour over that of skin with so much melanin and blood",
 }
 
 PLACE, BENT = "region_place", "region_bent"
@@ -59,10 +61,12 @@ class Region:
     ----------
     label : str
     melanin, blood, tan : float
-        As `model.regions.Kind` has them.
+        As `hylios.skin.regions.Region` has them.
     strength : float
     spots : Spots or None
         Without them the mask alone says where it is.
+    colour : 3 floats
+        As `model.regions.Shown` has it.
     """
 
     label: str
@@ -71,6 +75,7 @@ class Region:
     tan: float
     strength: float
     spots: Spots | None = None
+    colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
 
 
 Shown = Sequence[tuple[Region, ShownMask | None]]
@@ -94,7 +99,10 @@ def new_tree(name: str, shown: Shown, changes: Changes) -> Any:
     tree[SHOWN_KEY] = told(shown)
     for title, says in OUTPUTS.items():
         tree.interface.new_socket(
-            title, description=says, in_out="OUTPUT", socket_type="NodeSocketFloat"
+            title,
+            description=says,
+            in_out="OUTPUT",
+            socket_type="NodeSocketVector" if title == LIGHT else "NodeSocketFloat",
         )
     made = _Sums(tree)
     for number, (region, mask) in enumerate(shown):
@@ -204,6 +212,7 @@ class _Sums:
         self._less: Any = None
         self._blood: Any = None
         self._tan: Any = None
+        self._light: Any = None
 
     def add(self, region: Region, weight: Any, y: int) -> None:
         """Add a region with the socket that gives its weight."""
@@ -212,6 +221,8 @@ class _Sums:
             self._more = self._sum(self._more, weight, region.melanin, "Melanin", (700, y))
         if region.blood != 1.0:
             self._blood = self._sum(self._blood, weight, region.blood, "Blood", (700, y - 200))
+        if region.colour != (1.0, 1.0, 1.0):
+            self._add_light(weight, region.colour, (700, y + 200))
         if region.melanin == 0.0:
             left = _math(tree, "MULTIPLY_ADD", "Melanin that is left", (700, y - 400), weight)
             left.inputs[1].default_value, left.inputs[2].default_value = -1.0, 1.0
@@ -241,6 +252,30 @@ class _Sums:
                 value = _node(tree, Role("ShaderNodeValue", f"No change: {name}", (1300, -300)))
                 value.outputs[0].default_value, start = nothing, value.outputs[0]
             tree.links.new(start, output.inputs[name])
+        tree.links.new(self._light_of_all(), output.inputs[LIGHT])
+
+    def _add_light(self, weight: Any, colour: tuple[float, ...], at: tuple[int, int]) -> None:
+        role = vector_role("MULTIPLY_ADD", "Light, logarithm", at, at_2=(0.0,) * 3)
+        node = _node(self._tree, role)
+        node.inputs[1].default_value = tuple(map(math.log, colour))
+        self._tree.links.new(weight, node.inputs[0])
+        if self._light is not None:
+            self._tree.links.new(self._light, node.inputs[2])
+        self._light = node.outputs[0]
+
+    def _light_of_all(self) -> Any:
+        """The socket of the colour's factor."""
+        tree = self._tree
+        joined = _node(tree, Role("ShaderNodeCombineXYZ", "Light", (1500, 300)))
+        for end in joined.inputs:
+            end.default_value = 1.0
+        if self._light is not None:
+            parts = _node(tree, Role("ShaderNodeSeparateXYZ", "By channel", (1150, 300)))
+            tree.links.new(self._light, parts.inputs[0])
+            for part, end in zip(parts.outputs, joined.inputs, strict=True):
+                factor = _math(tree, "EXPONENT", "Light of a channel", (1300, 300), part)
+                tree.links.new(factor.outputs[0], end)
+        return joined.outputs[0]
 
     def _sum(self, former: Any, weight: Any, factor: float, label: str, at: tuple) -> Any:
         node = _math(self._tree, "MULTIPLY_ADD", f"{label}, logarithm", at, weight)

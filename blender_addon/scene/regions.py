@@ -2,10 +2,11 @@
 
 One node, a group of its own, tells how much melanin and blood the regions have over the skin around
 them, and how much they tan. It shifts the state from which the skin's look follows, and likewise
-the untanned state, so that Ratio is what a region's own tan does.
+the untanned state, so that Ratio is what a region's own tan does. What of a region's colour melanin
+and blood do not tell multiplies all colours of the skin's look.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -17,7 +18,7 @@ from .changes import Changes
 from .detail import millimetres
 from .masks import Mask
 from .ownership import is_local
-from .plan import ROLE_KEY, Link, Role, math_role
+from .plan import ROLE_KEY, Link, Role, math_role, vector_role
 from .region_nodes import Region
 
 ROLES = {
@@ -28,7 +29,17 @@ ROLES = {
     "region_root": math_role("SQRT", "Root of untanned melanin", (200, 900)),
     "region_column": math_role("MULTIPLY_ADD", "Untanned melanin to column", (400, 900)),
     "region_row": Role("ShaderNodeMapRange", "Untanned blood to row", (400, 700), {"clamp": True}),
+    "region_light": vector_role("MULTIPLY", "Light of regions", (1100, 600)),
+    "region_thick_light": vector_role("MULTIPLY", "Light of regions, thick skin", (1100, 300)),
+    "region_untanned_light": vector_role("MULTIPLY", "Light of regions, untanned", (1200, 850)),
 }
+
+LIGHTS = {
+    "region_light": ("colour", ("mixed_colour", "A_Color")),
+    "region_thick_light": ("thick_colour", ("mixed_colour", "B_Color")),
+    "region_untanned_light": ("untanned", ("ratio", 1)),
+}
+"""Roles that multiply a colour of the skin's look, of which image, and what it leads to."""
 
 LINKS: tuple[Link, ...] = (
     ("state", "X", "region_tan", 0),
@@ -45,12 +56,18 @@ LINKS: tuple[Link, ...] = (
     ("region_column", "Value", "untanned_place", "X"),
     ("regions", "Blood", "region_row", "Value"),
     ("region_row", "Result", "untanned_place", "Y"),
+    *((image, "Color", role, 0) for role, (image, _) in LIGHTS.items()),
+    *(("regions", region_nodes.LIGHT, role, 1) for role in LIGHTS),
+    *((role, "Vector", *end) for role, (_, end) in LIGHTS.items()),
 )
+
+OF_LIGHTS: tuple[Link, ...] = tuple((image, "Color", *end) for image, end in LIGHTS.values())
 
 REPLACED: tuple[Link, ...] = (
     ("state", "X", "melanin", 0),
     ("melanin", "Value", "more_melanin", 0),
     ("blood", "Value", "look_row", "Value"),
+    *OF_LIGHTS,
 )
 """Links of a group without regions whose place others take."""
 
@@ -161,25 +178,42 @@ def _added(group: Any, tree: Any, changes: Changes) -> Any:
         nodes.new_node(group, role, ROLES)
     node = next(nodes.of_role(group, "regions"))
     node.node_tree = tree
-    for source, _, target, socket in REPLACED:
+    _link(group, ROLES, REPLACED)
+    return node
+
+
+def _link(group: Any, made: Collection[str], replaced: Iterable[Link]) -> None:
+    """Link new nodes in place of what they replace."""
+    for source, _, target, socket in replaced:
         for kept in nodes.of_role(group, target):
             for former in list(nodes.find_input(kept, socket).links):
                 if former.from_node.get(ROLE_KEY) == source:
                     group.links.remove(former)
-    nodes.link(group, ROLES, LINKS)
-    return node
+    nodes.link(group, made, LINKS)
 
 
 def _replaced(group: Any, tree: Any, changes: Changes) -> Any:
     changes.may_relink(group)
+    is_early = False
     for node in nodes.of_role(group, "regions"):
         former = node.node_tree
+        is_early |= region_nodes.LIGHT not in node.outputs
         ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
         changes.set(node, "node_tree", tree)
         for name, end in ends:
             group.links.new(node.outputs[name], end)
         changes.at_the_end(partial(_remove_unused, former))
+    if is_early:
+        _add_lights(group, changes)
     return next(nodes.of_role(group, "regions"))
+
+
+def _add_lights(group: Any, changes: Changes) -> None:
+    """Give the nodes of `LIGHTS` to a group whose regions were made before there were any."""
+    changes.may_add_to(group.nodes)
+    for role in LIGHTS:
+        nodes.new_node(group, role, ROLES)
+    _link(group, LIGHTS, OF_LIGHTS)
 
 
 def _remove_unused(tree: Any) -> None:

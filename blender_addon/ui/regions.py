@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..model.regions import kinds
+from ..model.regions import spots
 from ..props import settings_of
 from .masks import draw_mask
 
@@ -33,7 +33,7 @@ def draw_regions(
     region = settings.regions[min(settings.region_index, len(settings.regions) - 1)]
     layout.prop(region, "kind", text="")
     layout.prop(region, "strength")
-    if kinds()[region.kind.lower()].spots is not None:
+    if region.kind.lower() in spots():
         layout.prop(region, "painted")
     without = "No mask: they are everywhere" if region.has_spots() else "No mask: it is nowhere"
     draw_mask(layout, obj, region.mask, context, without)

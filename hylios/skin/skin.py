@@ -209,7 +209,7 @@ class Skin:
         """
         melanin, thickness, blood = _parts(state)
         layers = THICKENED[self.thickening]
-        return _flushed(tanned(self.specimen, melanin, thickness, self._kept, layers), blood)
+        return flushed(tanned(self.specimen, melanin, thickness, self._kept, layers), blood)
 
     def overfull(self, state: ArrayLike) -> bool:
         """Whether `at` cuts melanin in a state, as it takes them, that would overfill a layer."""
@@ -309,7 +309,7 @@ def _parts(state: ArrayLike) -> tuple[np.ndarray, float, float]:
     return numbers[:3], float(numbers[3]), blood
 
 
-def _flushed(specimen: Specimen, blood: float) -> Specimen:
+def flushed(specimen: Specimen, blood: float) -> Specimen:
     """The specimen with `blood` times its blood."""
     if blood == 1.0:
         return specimen

@@ -20,6 +20,7 @@ ALLOWED = {
     "hylios/lab/pictures.py": {"numpy", "matplotlib"},
     "hylios/lab/fit.py": {"numpy", "scipy"},
     "hylios/lab/kinetics_fit.py": {"numpy", "scipy"},
+    "hylios/lab/site_fits.py": {"numpy", "scipy"},
     "hylios/transport": {"numpy", "numba"},
     "lut_builder": {"numpy", "OpenImageIO", "tqdm", "hylios"},
     "lut_builder/jobs/cluster.py": {"distributed", "hylios"},

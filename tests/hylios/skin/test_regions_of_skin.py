@@ -1,0 +1,105 @@
+"""Regions of skin: their table, and what they do to a state and to a specimen."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hylios.errors import InputError
+from hylios.lab import site_fits
+from hylios.skin.phototypes import named_specimen, skin_type
+from hylios.skin.regions import REGIONS, region, sites
+from hylios.skin.specimen import EPIDERMIS
+
+LIGHT, DARK = 0.031, 0.23
+"""Melanin of types II and VI."""
+
+
+def test_numbers_are_those_that_were_measured_and_marked_where_they_were_not():
+    assert region("flush", LIGHT).blood == pytest.approx(0.83 / 0.24, abs=0.05)
+    assert region("vitiligo", LIGHT).melanin == 0.0
+    assert (region("palms", LIGHT).tan, region("moles", LIGHT).tan) == (0.0, 0.0)
+    estimates = {name for name in REGIONS if region(name, LIGHT).is_estimate}
+    assert estimates == {"freckles", "lentigines", "moles", "palms", "lips"}
+
+
+def test_sites_are_geometric_means_of_light_people_and_of_africans():
+    light = region("cheeks", LIGHT)
+    assert (light.melanin, light.blood, light.below) == pytest.approx((0.99, 2.51, 1.06), abs=0.01)
+    dark = region("fingers", DARK)
+    assert (dark.melanin, dark.blood, dark.below) == pytest.approx((0.38, 1.51, 1.08), abs=0.01)
+    between = region("fingers", 0.08)
+    assert dark.blood < between.blood < region("fingers", LIGHT).blood
+
+
+def test_every_site_is_fitted_as_closely_as_free_blood_and_oxygen_allow():
+    """Within .0131, and within .001 of what is reached where oxygen is free; palms are worst."""
+    assert max(site.rmse for site in sites()) <= 0.0131
+    assert max(site.rmse - site.free_rmse for site in sites()) < 0.001
+    assert max(site.ciede2000 for site in sites()) < 1.7
+    assert np.mean([site.ciede2000 for site in sites()]) < 0.6
+
+
+@pytest.mark.slow
+def test_a_fit_gives_the_row_of_the_table():
+    """The redness of fingers, a* 18.6, is met with brighter tissue below."""
+    arm, finger = (
+        next(it for it in site_fits.measured() if (it.group, it.site) == ("JP", name))
+        for name in ("inner arm", "ring finger")
+    )
+    row = site_fits.row_of(site_fits.arm_of(arm), finger).split(",")
+    told = next(it for it in sites() if (it.group, it.name) == ("JP", "ring finger"))
+    assert [float(it) for it in row[3:7]] == pytest.approx(
+        [told.arm_melanin, told.melanin, told.blood, told.below], abs=0.002
+    )
+    assert told.below > 1.1
+
+
+def test_a_freckle_has_half_as_much_again_and_up_to_four_times_the_melanin():
+    melanin, _ = region("freckles", LIGHT).of_state([0.0, 1.0, 2.0], 0.0, 1.0)
+    assert melanin / np.exp([0.0, 1.0, 2.0]) == pytest.approx([1.5, 2.5, 4.1], abs=0.05)
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_nothing_changes_where_a_region_is_not(name):
+    told = region(name, LIGHT)
+    melanin, blood = told.of_state([0.0, 1.3], [0.0, 0.7], 0.0)
+    assert melanin == pytest.approx(np.exp([0.0, 1.3]))
+    assert blood == pytest.approx([0.0, 0.7])
+    specimen = named_specimen("II")
+    assert told.of(specimen, 0.0) == specimen
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_a_specimen_has_the_melanin_and_blood_of_the_state(name):
+    specimen = named_specimen("II")
+    told = region(name, specimen.pigmentation)
+    melanin, blood = told.of_state(0.0, 0.0)
+    own = told.of(specimen)
+    assert own.pigmentation == pytest.approx(float(melanin) * specimen.pigmentation)
+    assert own.papillary_blood == pytest.approx(np.exp(blood) * specimen.papillary_blood)
+
+
+@pytest.mark.parametrize("name", ["moles", "palms", "vitiligo"])
+def test_what_does_not_tan_keeps_its_melanin(name):
+    melanin, _ = region(name, LIGHT).of_state([0.0, 1.8], 0.0, [1.0, 1.0])
+    assert melanin[0] == pytest.approx(melanin[1])
+
+
+def test_no_mole_holds_more_melanin_than_skin_does():
+    skin = skin_type("VI")
+    mole = region("moles", skin.specimen.pigmentation).of(skin.specimen)
+    assert mole.pigmentation == pytest.approx(0.43)
+    assert max(getattr(mole, f"{layer}_melanosomes") for layer in EPIDERMIS) <= 100.0
+
+
+def test_a_palm_has_a_thick_corneum_and_no_thinner_one_than_the_skin_around():
+    palm = region("palms", LIGHT)
+    assert palm.of(named_specimen("II")).corneum_thickness == pytest.approx(0.0173)
+    callus = replace(named_specimen("II"), corneum_thickness=0.03)
+    assert palm.of(callus).corneum_thickness == 0.03
+
+
+def test_another_name_is_told():
+    with pytest.raises(InputError, match="no region 'nose' of skin; there are cheeks"):
+        region("nose", LIGHT)

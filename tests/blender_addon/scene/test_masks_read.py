@@ -18,13 +18,14 @@ SHARES = np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0.35, 1], [1, 0.8]])
 FRAME = 120
 
 
-@pytest.fixture(autouse=True)
-def coarse(monkeypatch):
-    """Fewer steps of a share, with which all is computed faster."""
+@pytest.fixture(autouse=True, scope="module")
+def coarse():
+    """Fewer steps of a share, with which all is computed faster, and once for all tests."""
     steps = replace(FULL_GRID, steps={2: 65, 3: 9})
-    monkeypatch.setattr(tans, "FULL_GRID", steps)
-    tans._over_shares.cache_clear()
-    yield
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(tans, "FULL_GRID", steps)
+        tans._over_shares.cache_clear()
+        yield
     tans._over_shares.cache_clear()
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from hylios.commands.shell import (
+    add_region_argument,
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
@@ -16,6 +17,7 @@ from hylios.tissue import Model
 def add_beam_arguments(parser: argparse.ArgumentParser, *, wavelength: float, angle: float) -> None:
     """Add the arguments that `simulated` reads, with the defaults of some."""
     add_skin_arguments(parser)
+    add_region_argument(parser)
     add_work_arguments(parser)
     parser.add_argument(
         "--wavelength",

@@ -3,6 +3,7 @@
 import argparse
 
 from hylios.commands.shell import (
+    add_region_argument,
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
@@ -18,6 +19,7 @@ def add_to(commands) -> None:
     parser = commands.add_parser("reflectance", help="spectrum of a specimen by random walk")
     parser.set_defaults(command=run)
     add_skin_arguments(parser)
+    add_region_argument(parser)
     add_work_arguments(parser)
     parser.add_argument(
         "--wavelengths",

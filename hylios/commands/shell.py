@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -13,6 +14,7 @@ from hylios.errors import InputError, require_whole, shown
 from hylios.readers.spectrum import NamedSpectrum
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
+from hylios.skin.regions import REGIONS, region
 from hylios.skin.specimen import Specimen, parameters, with_values
 from hylios.skin.specimen_file import read_specimen
 from hylios.spectra import estimates_within, published_spectra, with_own_spectrum
@@ -160,6 +162,15 @@ def add_skin_arguments(parser: argparse.ArgumentParser) -> None:
         )
 
 
+def add_region_argument(parser: argparse.ArgumentParser) -> None:
+    """Add `--region`, which `chosen_specimen` reads where it is there."""
+    parser.add_argument(
+        "--region",
+        choices=REGIONS,
+        help="a region of that skin, without sun: what is set is of the skin around it",
+    )
+
+
 def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `chosen_tanning_skin` reads besides the specimen's."""
     parser.add_argument(
@@ -226,6 +237,8 @@ def require_work(arguments: argparse.Namespace) -> None:
 def chosen_specimen(arguments: argparse.Namespace) -> Specimen:
     """The specimen that the arguments ask for: one by name or a file's, with what is set.
 
+    A region of it where one is named; standard error says what of that is an estimate.
+
     Raises
     ------
     InputError
@@ -241,7 +254,15 @@ def chosen_specimen(arguments: argparse.Namespace) -> Specimen:
         start = read_specimen(Path(name), allow_unphysical=unphysical)
     else:
         start = named_specimen(name)
-    return with_values(start, values, allow_unphysical=unphysical)
+    specimen = with_values(start, values, allow_unphysical=unphysical)
+    name = getattr(arguments, "region", None)
+    if name is None:
+        return specimen
+    told = region(name, specimen.pigmentation)
+    if told.is_estimate:
+        marked = ", ".join(number for number, mark in told.marks.items() if mark == "E")
+        print(f"note: of {name} it is an ESTIMATE: {marked}.", file=sys.stderr)
+    return replace(told.of(specimen), name=f"{specimen.name} {name}")
 
 
 def _specimen_name(arguments: argparse.Namespace) -> str:

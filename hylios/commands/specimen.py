@@ -4,7 +4,11 @@ import argparse
 import textwrap
 from dataclasses import MISSING
 
-from hylios.commands.shell import add_specimen_arguments, chosen_specimen
+from hylios.commands.shell import (
+    add_region_argument,
+    add_specimen_arguments,
+    chosen_specimen,
+)
 from hylios.skin.phototypes import PHOTOTYPES, specimens
 from hylios.skin.physiology import PHYSIOLOGY
 from hylios.skin.specimen import ARRANGEMENTS, Specimen, parameters
@@ -21,6 +25,7 @@ def add_to(commands) -> None:
     )
     parser.set_defaults(command=run)
     add_specimen_arguments(parser, "specimen", nargs="?", metavar="NAME|FILE.toml")
+    add_region_argument(parser)
     parser.add_argument("--toml", action="store_true", help="print a file for --specimen FILE.toml")
 
 
@@ -73,6 +78,7 @@ def _origin(specimen: Specimen, parameter) -> str:
     value, cited = getattr(specimen, parameter.name), PHYSIOLOGY[parameter.name].cited
     if parameter.default is not MISSING and value == parameter.default:
         return f"table 6.2 {cited}"
-    if value != getattr(specimens().get(specimen.name), parameter.name, None):
+    base = specimen.name.partition(" ")[0]  # a region is called after the skin around it
+    if value != getattr(specimens().get(base), parameter.name, None):
         return "given"
-    return "hylios/skin/phototypes" if specimen.name in PHOTOTYPES else f"table 6.1 {cited}"
+    return "hylios/skin/phototypes" if base in PHOTOTYPES else f"table 6.1 {cited}"

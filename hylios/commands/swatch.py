@@ -7,6 +7,7 @@ import numpy as np
 
 from hylios.commands.day_row import add_row_arguments, require_no_tan, write_row
 from hylios.commands.shell import (
+    add_region_argument,
     add_skin_arguments,
     add_work_arguments,
     chosen_skin,
@@ -41,6 +42,7 @@ def add_to(commands) -> None:
         "files", nargs="*", type=Path, metavar="FILE.csv", help="spectra; - is standard input"
     )
     add_skin_arguments(parser)
+    add_region_argument(parser)
     add_row_arguments(parser)
     add_work_arguments(parser)
     parser.add_argument(
@@ -71,11 +73,14 @@ def run(arguments: argparse.Namespace) -> None:
     usual = USUAL_SIZE if arguments.size is None else arguments.size
     size = require_whole("size", usual, 1, 4096)
     of_specimen = (arguments.specimen, arguments.skin, arguments.set, arguments.days)
-    if arguments.files and any([*of_specimen, arguments.reading, arguments.own_spectrum]):
+    others = arguments.reading, arguments.own_spectrum, arguments.region
+    if arguments.files and any([*of_specimen, *others]):
         raise InputError("a swatch is of spectra in files or of a specimen; give only one.")
     if arguments.days is not None:
         if arguments.band != "visible":
             raise InputError(f"band is {arguments.band}; allowed with --days is visible.")
+        if arguments.region is not None:
+            raise InputError("--region is a region without sun; allowed is it without --days.")
         write_row(arguments)
         return
     require_no_tan(arguments)

@@ -1,10 +1,10 @@
 """Ranges of the parameters of skin in living people, and their sources.
 
-The ranges hold for thin skin (all but palms and soles) of people who are well or have a condition
-that shows in the skin: no melanin at all (vitiligo) is within them, and so are smokers' blood and
-jaundice of the newborn. A number that no measurement supports is marked ESTIMATE. "Thesis" is
-T. F. Chen's; its numbers in brackets are those of its bibliography. The numbers and their sources
-stand in `physiology.toml`.
+The ranges hold for thin skin (palms and soles have their own end, `thick`) of people who are well
+or have a condition that shows in the skin: no melanin at all (vitiligo) is within them, and so are
+smokers' blood and jaundice of the newborn. A number that no measurement supports is marked
+ESTIMATE. "Thesis" is T. F. Chen's; its numbers in brackets are those of its bibliography. The
+numbers and their sources stand in `physiology.toml`.
 """
 
 import tomllib
@@ -26,16 +26,24 @@ class Physiology:
         Where the range comes from, with ESTIMATE where it is one.
     cited : str
         What the thesis cites for its own values, in table 6.1 or 6.2.
+    thick : float, optional
+        High end in palms and soles, where it is another.
     """
 
     low: float
     high: float
     source: str
     cited: str
+    thick: float | None = None
+
+    @property
+    def most(self) -> float:
+        """High end over all skin, palms and soles among it."""
+        return self.high if self.thick is None else self.thick
 
     def holds(self, value: float) -> bool:
-        """Whether a value lies within the range."""
-        return self.low <= value <= self.high
+        """Whether a value lies within the range, or in that of palms and soles."""
+        return self.low <= value <= self.most
 
 
 MOST_EPIDERMAL_MELANIN = 0.43

@@ -247,7 +247,7 @@ def _require_physiological_ranges(values: Mapping[str, Any]) -> None:
             low, high = parameter.metadata["low"], parameter.metadata["high"]
             raise InputError(
                 f"{name} is {value:g}{unit}; physiological is {physiology.low:g} to "
-                f"{physiology.high:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
+                f"{physiology.most:g}{unit}, allowed is {low:g} to {high:g}{unit} with "
                 "allow_unphysical."
             )
 

@@ -8,9 +8,12 @@ import pytest
 
 from hylios.burley import burley_share_within
 from hylios.commands.cli import main
+from hylios.skin.phototypes import named_specimen
+from hylios.skin.regions import region
 from hylios.skin.specimen import SPECIMENS
 from hylios.transport.angular import brdf
 from hylios.transport.radial import Rings, profile
+from hylios.transport.simulate import spectrum
 
 S3 = SPECIMENS["S3"]
 
@@ -91,3 +94,21 @@ def test_bad_input_is_one_sentence_and_status_2(capsys, arguments, sentence):
     assert sentence in printed.err
     assert printed.err.count("\n") == 1
     assert printed.out == ""
+
+
+def test_a_region_has_the_reflectance_of_its_specimen(capsys):
+    assert (
+        main("reflectance --specimen II --region palms --wavelengths 600 --rays 500".split()) == 0
+    )
+    printed = capsys.readouterr()
+    start = named_specimen("II")
+    palm = region("palms", start.pigmentation).of(start)
+    right = spectrum(palm, [600.0], rays=500, seed=1).total
+    assert table(printed.out)["total"] == pytest.approx(right, rel=1e-6)
+    assert "note: of palms it is an ESTIMATE: tan." in printed.err
+
+
+def test_a_region_is_not_of_a_tan(tmp_path, capsys):
+    output = tmp_path / "row.png"
+    assert main(f"swatch --skin II --region palms --days 9 -o {output}".split()) == 2
+    assert "without --days" in capsys.readouterr().err

@@ -70,12 +70,21 @@ def test_what_the_thesis_varies_is_physiological(name, values):
     assert with_values(SPECIMENS[name], values) == replace(SPECIMENS[name], **values)
 
 
+def test_a_palm_is_physiological_and_thin_skin_keeps_its_range():
+    palm = with_values(S3, {"corneum_thickness": 0.0173})
+    assert palm.corneum_thickness == 0.0173
+    assert (PHYSIOLOGY["corneum_thickness"].high, PHYSIOLOGY["corneum_thickness"].most) == (
+        0.0036,
+        0.0173,
+    )
+
+
 @pytest.mark.parametrize("name", list(PHYSIOLOGY))
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 def test_a_value_outside_is_refused_with_both_ranges_and_taken_where_allowed(name, side):
     usual = PHYSIOLOGY[name]
     possible = next(parameter.metadata for parameter in parameters() if parameter.name == name)
-    end = usual.low if side < 0 else usual.high
+    end = usual.low if side < 0 else usual.most
     value = float(np.nextafter(end, side * np.inf))
     with pytest.raises(InputError, match=f"{name} is .*; physiological is {usual.low:g} to "):
         with_values(S3, {name: value})
@@ -150,7 +159,7 @@ def layer_numbers(specimen, wavelength):
     return np.array([list(layer.values()) for layer in given])
 
 
-PHYSIOLOGICAL = box({name: (usual.low, usual.high) for name, usual in PHYSIOLOGY.items()})
+PHYSIOLOGICAL = box({name: (usual.low, usual.most) for name, usual in PHYSIOLOGY.items()})
 POSSIBLE = box(
     {
         parameter.name: (parameter.metadata["low"], parameter.metadata["high"])

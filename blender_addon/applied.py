@@ -8,18 +8,19 @@ from .props import SkinTanSettings, settings_of
 from .scene.changes import Changes
 
 NOTES = frozenset(
-    "rna_type name group material keyed applied undone exposure_index region_index live".split()
+    "rna_type name group material keyed applied undone exposure_index region_index live "
+    "kinetics_kept redness_kept".split()
 )
 """Properties of an object that do not change its look."""
 
-SCHEDULE = frozenset("exposures own_minimal_doses mmd med".split())
+SCHEDULE = frozenset("exposures own_minimal_doses mmd med redness".split())
 """Properties that change the history of the skin and nothing else."""
 
 BIOLOGY = "biology"
 """Property that changes the look and nothing else."""
 
-SKIN = frozenset("skin table_path".split())
-"""Properties that say whose look it is."""
+SKIN = frozenset("skin table_path kinetics".split())
+"""Properties that say whose look it is, and in which tans it is at all."""
 
 SEPARATOR = "\n"
 

@@ -7,12 +7,13 @@ import bpy
 from hylios.errors import InputError
 
 from . import applied, own_colour, several, timing
-from .model import doses
+from .model import catalogue, doses
 from .model.curve import curve_of, is_seen
 from .model.film import film_of
 from .model.look import untanned_colour
 from .model.regions import shown as shown_region
 from .model.regions import spots
+from .model.response import holds_redness
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
@@ -67,6 +68,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     tan = tan_of(values, rough=rough)
     of_masks = several.computed(obj, rough=rough)
     with Changes() as changes:
+        keep_response(settings, changes)
         skin = skins.prepare(obj, replacing=settings.new_material)
         first_version.take_over(skin.group, changes)
         layout_1.take_over(skin.group, skin.trees(), changes)
@@ -117,6 +119,12 @@ def list_materials(obj: bpy.types.Object | None) -> str:
         slots.remember(obj, ticked, changes)
     skin = [material for material, tans in ticked.items() if tans]
     return f"Ticked as skin: {names(skin)}." if skin else "No material is ticked as skin."
+
+
+def keep_response(settings: SkinTanSettings, changes: Changes) -> None:
+    """Remember kinetics and redness of a tan, so that they are no longer those of a new one."""
+    for name, number in settings.response_numbers().items():
+        changes.set(settings, name, number)
 
 
 def mesh_object(obj: bpy.types.Object | None) -> bpy.types.Object:
@@ -272,6 +280,8 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")
+    if values.redness and not holds_redness(catalogue.table(values.table)):
+        remarks.append("The table holds no blood, so no sunburn shows.")
     if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks

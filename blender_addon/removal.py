@@ -4,7 +4,7 @@ import bpy
 
 from hylios.errors import InputError
 
-from .apply import tannable
+from .apply import keep_response, tannable
 from .props import settings_of
 from .scene.changes import Changes
 from .scene.day_removal import remove_day
@@ -34,6 +34,7 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
         raise InputError(f"{obj.name!r} has no tan; Apply Tan gives it one.")
     settings = settings_of(obj)
     with Changes() as changes:
+        keep_response(settings, changes)
         said = take_off(obj, changes)
         remove_own(obj, changes)
         # Keys of the artist's own stay; a file from before Apply noted its keys has only ours.

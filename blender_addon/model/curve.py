@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from hylios.adding.redness import JUST_SEEN
 from hylios.colour_difference import lab
-from hylios.table import melanin_kinetics
 from hylios.tanning.spread import spread_of
 
 from . import catalogue
 from .biology import table_with
 from .history import DRAG, History
 from .lines import Line
+from .response import melanin_of
 from .settings import TanSettings
 from .tan import darkest_day, history_of
 
@@ -115,7 +115,7 @@ def _curve(settings: TanSettings, stamp: tuple[int, int]) -> Curve:
     minimal = settings.minimal_doses(table.provenance)
     days = np.linspace(settings.first_day, settings.last_day, POINTS)
     coordinates = np.concatenate([np.zeros((1, 3)), _of_bare_skin(history, days)])
-    kinetics = melanin_kinetics(table.provenance, settings.kinetics)
+    kinetics = melanin_of(table, settings.kinetics)
     spread = spread_of(kinetics, mmd=minimal.mmd, med=minimal.med)
     colours = table.lookup(spread.states(*coordinates.T), [COLOUR])[COLOUR]
     shown = tan = lab(colours)
@@ -159,6 +159,8 @@ def words(curve: Curve) -> tuple[str, ...]:
         return (*red, first, Line("not half gone by day {last:.0f}", last=curve.days[-1]))
     if curve.gone is None:
         return (*red, first, Line("half gone by day {half:.0f}", half=half))
+    if curve.gone <= half:
+        return (*red, first, Line("gone by day {gone:.0f}", gone=curve.gone))
     both = Line("half gone by day {half:.0f}, all by {gone:.0f}", half=half, gone=curve.gone)
     return (*red, first, both)
 

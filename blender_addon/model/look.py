@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.table import LOOK_AXES, LookAxes, SkinTable, melanin_kinetics
+from hylios.table import LOOK_AXES, LookAxes, SkinTable
 from hylios.table.provenance import MinimalDoses
 from hylios.tanning.spread import Spread, spread_of
 
 from .layer import let_through, through_gloss
+from .response import melanin_of
 
 COLUMNS, BLOOD_ROWS = 80, 10
 """Columns of melanin, and rows of blood for one thickness."""
@@ -211,9 +212,7 @@ def grid_of(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -
     InputError
         If the table does not say how its skin makes melanin.
     """
-    spread = spread_of(
-        melanin_kinetics(table.provenance, kinetics), mmd=minimal.mmd, med=minimal.med
-    )
+    spread = spread_of(melanin_of(table, kinetics), mmd=minimal.mmd, med=minimal.med)
     melanin, thickness, blood = _ranges(table, spread)
     roots = _roots(*np.exp(np.divide(melanin, 2.0)))
     reached = np.interp(2.0 * np.log(roots), spread.least, spread.thicknesses)

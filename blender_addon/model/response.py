@@ -36,7 +36,7 @@ def response_of(table: SkinTable, kinetics: str = "thesis", redness: bool = Fals
     """
     reddens = redness and holds_redness(table)
     erythema = hylios.erythema(skin_of(table.provenance)) if reddens else None
-    return Response(melanin_kinetics(table.provenance, kinetics), erythema)
+    return Response(melanin_of(table, kinetics), erythema)
 
 
 def holds_redness(table: SkinTable) -> bool:
@@ -48,3 +48,20 @@ def holds_redness(table: SkinTable) -> bool:
     except InputError:
         return False
     return True
+
+
+def melanin_of(table: SkinTable, kinetics: str) -> Kinetics:
+    """How a table's skin makes melanin by one of `hylios.tanning.KINETICS`.
+
+    Raises
+    ------
+    InputError
+        If the table does not say it.
+    """
+    try:
+        return melanin_kinetics(table.provenance, kinetics)
+    except InputError as error:
+        if kinetics == "thesis":
+            raise
+        why = str(error).rstrip(".")
+        raise InputError(f"{why}; set Tan to As in the Thesis for it.") from error

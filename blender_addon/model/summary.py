@@ -7,15 +7,21 @@ from one drawing to the next.
 import functools
 from pathlib import Path
 
+import numpy as np
+
 from hylios.errors import InputError
+from hylios.sun.doses import Doses
 from hylios.table.provenance import MinimalDoses, minimal_doses
 
 from . import catalogue, doses
 from .lines import Line
-from .settings import Exposure
+from .settings import LAST_DAY_LIMIT, Exposure, TanSettings
 
 SED_PER_HOUR_OF_SUMMER_SUN = 7.2
 """Erythemal dose of an hour at UV index 8: 8 x 25 mW/m^2 for an hour is 720 J/m^2."""
+
+BLISTERING = 4.0
+"""Burn doses of a day with more of which skin blisters in life, which the model does not show."""
 
 LINE = 40
 """Characters that fit into a panel of usual width."""
@@ -74,15 +80,50 @@ def _of_dose(
     exposure: Exposure, path: Path, stamp: tuple[int, int], own_doses: MinimalDoses | None
 ) -> tuple[str, ...] | str:
     """The lines, or why there are none: an exception would not be remembered."""
-    try:
-        provenance = catalogue.provenance(path)
-        minimal = own_doses or minimal_doses(provenance)
-        received = doses.of_exposure(exposure, minimal.mmd, provenance)
-    except InputError as error:
-        return str(error)
+    received = _received(exposure, path, stamp, own_doses)
+    if isinstance(received, str):
+        return received
     meter, tanning = received.erythemal.sum(), received.melanogenesis.sum()
     hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
     lines = [Line("{meter:.3g} SED: {hours:.1f} h of strong sun", meter=meter, hours=hours)]
     if exposure.unit == "SUN":
         lines.append(Line("tans like {tanning:.3g} SED", tanning=tanning))
     return tuple(lines)
+
+
+def of_blisters(settings: TanSettings) -> tuple[str, ...]:
+    """Lines on the first day whose doses blister in life; none where no day's do.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range or the table cannot be used.
+    """
+    path, stamp = settings.table, catalogue.stamp(settings.table)
+    minimal = settings.minimal_doses(catalogue.provenance(path))
+    by_day = np.zeros(int(LAST_DAY_LIMIT) + 3)
+    for exposure in settings.exposures:
+        received = _received(exposure, path, stamp, settings.own_doses)
+        if isinstance(received, str):
+            raise InputError(received)
+        days = (received.hours // 24).astype(int)
+        np.add.at(by_day, np.minimum(days, by_day.size - 1), received.thickening / minimal.med)
+    blistering = np.flatnonzero(by_day > BLISTERING * (1.0 + 1e-9))
+    if not blistering.size:
+        return ()
+    day = float(blistering[0])
+    return (Line("Above 4 burn doses on day {day:.0f}:", day=day), "blisters in life; not shown")
+
+
+@functools.lru_cache(maxsize=256)
+def _received(
+    exposure: Exposure, path: Path, stamp: tuple[int, int], own_doses: MinimalDoses | None
+) -> Doses | str:
+    """Doses of an exposure, or why there are none: an exception would not be remembered."""
+    del stamp  # of the table's file, so that another one counts
+    try:
+        provenance = catalogue.provenance(path)
+        minimal = own_doses or minimal_doses(provenance)
+        return doses.of_exposure(exposure, minimal.mmd, provenance)
+    except InputError as error:
+        return str(error)

@@ -259,8 +259,8 @@ def _require_held(table: SkinTable, states: NDArray) -> None:
     if not table.holds(states).all():
         raise InputError(
             "the table was built for another schedule of sun or other kinetics and lacks tans of "
-            "this one; build it with this schedule (Export Schedule) or with none, or set Kinetics "
-            "to As in the Thesis."
+            "this one; build it with this schedule (Export Schedule) or with none, or set Tan to "
+            "As in the Thesis."
         )
 
 

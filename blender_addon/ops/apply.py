@@ -24,8 +24,9 @@ from .active import (
 )
 
 FIRST_EXPOSURE = "Day in the sun"
-FIRST_AMOUNT = 4.0
-"""Tanning doses of the exposure that an object without any is given: a plain tan on every skin."""
+FIRST_AMOUNT = 2.0
+"""Tanning doses of the exposure that an object without any is given: it burns light skin and tans
+all but the lightest, and blisters none."""
 
 OF_THE_OBJECT = ("group", "material", "materials", "keyed", "applied", "undone")
 """What Apply notes of an object, which is no setting."""
@@ -103,6 +104,8 @@ class SKIN_TAN_OT_copy_to_selected(bpy.types.Operator):  # noqa: N801
         others = [obj for obj in selected_meshes(context) if obj != source]
         for other in others:
             copy_values(settings, settings_of(other), leave=OF_THE_OBJECT)
+            for name, number in settings.response_numbers().items():
+                setattr(settings_of(other), name, number)
         done = _apply(self, others, current_scene(context))
         return {"FINISHED"} if done else {"CANCELLED"}
 

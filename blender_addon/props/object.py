@@ -20,7 +20,7 @@ from bpy.props import (
 
 from hylios.errors import InputError
 
-from ..model.catalogue import FILE, provenance, shipped_path
+from ..model.catalogue import provenance
 from ..model.settings import (
     FRAME_LIMIT,
     LARGEST_MINIMAL_DOSE,
@@ -41,7 +41,16 @@ from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask, follow_image, take_attribute, usable_names
 from .material import SkinTanMaterial
 from .region import SkinTanRegion, is_shown
-from .skins import SKIN_ITEMS, USUAL_SKIN
+from .response import (
+    KINETICS,
+    NAMES,
+    NOT_KEPT,
+    keep_kinetics,
+    keep_redness,
+    kinetics_of,
+    redness_of,
+)
+from .skins import SKIN_ITEMS, USUAL_SKIN, table_file
 
 FILMS = (
     ("NONE", "Dry", "Nothing lies on the skin"),
@@ -81,27 +90,6 @@ def _start_at_skin(settings: "SkinTanSettings", _: bpy.types.Context) -> None:
 def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
     """What is set on an object."""
     return cast(Any, obj).skin_tan
-
-
-def table_file(skin: str, table_path: str) -> Path:
-    """Path of a skin's table; `table_path` counts for skin FILE alone.
-
-    Raises
-    ------
-    InputError
-        If none is set, if its file is not there, or if this add-on lacks the skin.
-    """
-    if skin != FILE:
-        return shipped_path(skin)
-    if not table_path:
-        raise InputError("No table is set: choose the path of a skin table (an EXR file).")
-    path = Path(bpy.path.abspath(table_path))
-    try:
-        path.stat()
-    except (OSError, ValueError) as error:  # a name may hold what no file's can
-        why = getattr(error, "strerror", None) or error
-        raise InputError(f"the table {table_path} cannot be read: {why}.") from error
-    return path
 
 
 class SkinTanSettings(bpy.types.PropertyGroup):
@@ -147,6 +135,36 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         max=LARGEST_MINIMAL_DOSE,
         step=10,
         precision=1,
+    )
+    kinetics: EnumProperty(
+        name="Tan",
+        description="How new melanin comes and goes",
+        items=KINETICS,
+        get=kinetics_of,
+        set=keep_kinetics,
+    )
+    kinetics_kept: IntProperty(
+        name="Tan, Kept",
+        description="Number of what was chosen or applied",
+        default=NOT_KEPT,
+        min=NOT_KEPT,
+        max=len(NAMES) - 1,
+        options={"HIDDEN"},
+    )
+    redness: BoolProperty(
+        name="Sunburn",
+        description="Skin reddens for hours to days after much sun. An estimate, fitted to what "
+        "was measured in people",
+        get=redness_of,
+        set=keep_redness,
+    )
+    redness_kept: IntProperty(
+        name="Sunburn, Kept",
+        description="What was chosen or applied",
+        default=NOT_KEPT,
+        min=NOT_KEPT,
+        max=1,
+        options={"HIDDEN"},
     )
     model_scale: FloatProperty(
         name="Model Scale",
@@ -305,7 +323,13 @@ class SkinTanSettings(bpy.types.PropertyGroup):
             first_day=self.first_day,
             last_day=self.last_day,
             biology=self.biology.values(),
+            kinetics=self.kinetics.lower(),
+            redness=self.redness,
         )
+
+    def response_numbers(self) -> dict[str, int]:
+        """What `kinetics_kept` and `redness_kept` are of a tan that shows the settings."""
+        return {"kinetics_kept": kinetics_of(self), "redness_kept": int(redness_of(self))}
 
     def timing_values(self) -> Timing:
         """What is set on the timeline."""

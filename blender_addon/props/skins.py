@@ -2,8 +2,13 @@
 
 import zlib
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
-from ..model.catalogue import FILE, SHIPPED, TYPES, ShippedTable
+import bpy
+
+from hylios.errors import InputError
+
+from ..model.catalogue import FILE, SHIPPED, TYPES, ShippedTable, shipped_path
 
 SKIN_LABELS = {
     "I": "Type I, very light",
@@ -48,6 +53,27 @@ def _description(table: ShippedTable) -> str:
 def usual_skin(names: Sequence[str]) -> str:
     """The skin of a new object, out of those on offer."""
     return next((name for name in USUAL_SKINS if name in names), names[0])
+
+
+def table_file(skin: str, table_path: str) -> Path:
+    """Path of a skin's table; `table_path` counts for skin FILE alone.
+
+    Raises
+    ------
+    InputError
+        If none is set, if its file is not there, or if this add-on lacks the skin.
+    """
+    if skin != FILE:
+        return shipped_path(skin)
+    if not table_path:
+        raise InputError("No table is set: choose the path of a skin table (an EXR file).")
+    path = Path(bpy.path.abspath(table_path))
+    try:
+        path.stat()
+    except (OSError, ValueError) as error:  # a name may hold what no file's can
+        why = getattr(error, "strerror", None) or error
+        raise InputError(f"the table {table_path} cannot be read: {why}.") from error
+    return path
 
 
 SKIN_ITEMS = skin_items(SHIPPED)

@@ -86,6 +86,9 @@ def draw_exposures(
     if exposure.own_mask:
         draw_mask(layout, obj, exposure.mask, context)
     draw_lines(layout, *dose_lines(settings, Exposure.of(exposure)))
+    blisters = blister_lines(settings)
+    if blisters:
+        draw_lines(layout, blisters, "ERROR")
 
 
 def dose_lines(settings: SkinTanSettings, exposure: Exposure) -> tuple[tuple[str, ...], str]:
@@ -96,3 +99,11 @@ def dose_lines(settings: SkinTanSettings, exposure: Exposure) -> tuple[tuple[str
         # Apply says it in full; here it would be cut off.
         return ("No dose: " + str(error).split(";")[0][: summary.LINE],), "ERROR"
     return lines, "LIGHT_SUN"
+
+
+def blister_lines(settings: SkinTanSettings) -> tuple[str, ...]:
+    """Short lines on doses that the model does not show; none where another line says why."""
+    try:
+        return summary.of_blisters(settings.values())
+    except InputError:
+        return ()

@@ -23,6 +23,8 @@ def draw_skin(
     if settings.skin == FILE:
         layout.prop(settings, "table_path", text="")
     draw_lines(layout, *skin_lines(settings))
+    layout.prop(settings, "kinetics")
+    layout.prop(settings, "redness")
     row = layout.row(align=True)
     row.prop(cast(Any, context).scene.skin_tan, "sample", text="")
     row.operator("skin_tan.match_colour")

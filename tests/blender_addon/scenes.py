@@ -67,6 +67,8 @@ def tan_object(table_path: Path, shares=None, dose: float = 30.0):
     bpy.context.view_layer.objects.active = obj
     settings = obj.skin_tan
     settings.skin, settings.table_path = "FILE", str(table_path)
+    # Others have the redness of a new tan, and the kinetics fitted to people.
+    settings.kinetics, settings.redness = "THESIS", False
     exposure = settings.exposures.add()
     exposure.day, exposure.dose = 0.0, dose
     if shares is not None:

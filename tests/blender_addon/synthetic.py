@@ -4,6 +4,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
+from hylios.skin import UNTANNED
 from hylios.skin.specimen import SPECIMENS
 from hylios.table import LookAxes, SkinTable, StateAxes
 from hylios.tanning import PIGMENTATIONS, spread_of
@@ -24,6 +25,7 @@ def provenance(pigmentation: str) -> dict:
         "specimen": "S3",
         "specimen_parameters": asdict(specimen),
         "pigmentation": pigmentation,
+        "untanned_state": UNTANNED["steady_state"],
         "mmd_sed": MMD,
         "med_sed": MED,
         "bands_nm": [365, 1100, 1650],

@@ -7,7 +7,7 @@ import pytest
 from sampled import coordinates, looked_up
 
 import hylios
-from blender_addon.model import basis, catalogue, curve, history
+from blender_addon.model import basis, catalogue, curve, history, summary
 from blender_addon.model.look import look
 from blender_addon.model.response import holds_redness, response_of
 from blender_addon.model.settings import Exposure, TanSettings
@@ -170,6 +170,15 @@ def test_the_curve_names_several_burns_and_none_of_dark_skin():
     assert not curve.curve_of(dark).burns
 
 
+def test_a_faint_tan_is_gone_and_not_half_gone_later():
+    """On the darkest skin one tanning dose is hardly seen at all."""
+    faint = replace(SUN, unit="MMD", multiple=1.0)
+    table = catalogue.shipped_path("VI")
+    made = curve.curve_of(replace(SETTINGS, table=table, exposures=(faint,)))
+    assert made.gone is not None and made.gone < made.half_gone
+    assert curve.words(made)[-1] == f"gone by day {made.gone:.0f}"
+
+
 def test_the_picture_has_a_red_line_where_skin_is_red():
     made = curve.curve_of(SETTINGS)
     pixels = curve.picture(made, made.colours)
@@ -188,3 +197,16 @@ def test_history_differs_by_kinetics_and_redness():
     assert not first[..., 2].any()
     assert red[..., 2].max() > 1.0
     assert history_of(thesis).coordinates is first
+
+
+def test_doses_that_blister_are_said_by_the_day():
+    """The sum of a day counts, and its own minimal dose."""
+    half = replace(SUN, dose=2.1 * SKIN.med)
+    two_days = replace(SETTINGS, exposures=(half, replace(half, day=3.0)))
+    assert summary.of_blisters(two_days) == ()
+    one_day = replace(SETTINGS, exposures=(replace(half, day=3.1), replace(half, day=3.4)))
+    assert summary.of_blisters(one_day)[0] == "Above 4 burn doses on day 3:"
+    hardy = MinimalDoses(mmd=2.0 * SKIN.mmd, med=2.0 * SKIN.med)
+    assert summary.of_blisters(replace(one_day, own_doses=hardy)) == ()
+    exact = replace(SETTINGS, exposures=(replace(SUN, dose=4.0 * SKIN.med),))
+    assert summary.of_blisters(exact) == ()

@@ -32,6 +32,8 @@ VALUES = {
     "darkest": 120.0,
     "last": 365.0,
     "half": 211.0,
+    "first": 100.0,
+    "count": 20,
     "gone": 365.0,
     "times": 3.28,
     "length": 0.0123,

@@ -33,7 +33,7 @@ LIKE = {WET: COLOUR}
 """Planes that change as another does."""
 
 ANGLES = (8.0, 45.0, 60.0, 70.0)
-WAVELENGTHS = 8
+WAVELENGTHS = 10
 
 FRECKLE = 0.95
 """How far a table's last knot of melanin lies beyond what tans reach, in the logarithm, about."""
@@ -158,8 +158,9 @@ class ChangedTable(SkinTable):
         """States of the skin itself that look nearly as those of the changed skin."""
         if states.shape[-1] == 4:
             states = np.concatenate([states, np.ones((*states.shape[:-1], 1))], axis=-1)
-        moved = states.copy()
-        moved[..., :3] *= self.melanin
+        places = self.axes.coordinates(states)
+        places[..., 0] += np.log(self.melanin)
+        moved = self.axes.states(places)
         if self.blood > 1.0:
             # what lies beyond the table's most blood is squeezed into it, without a bend
             least = np.log(self.blood)

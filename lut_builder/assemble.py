@@ -170,8 +170,9 @@ def _near_far_planes(
         terms(request.skin, request.axes, states)
         for states in (request.walked_states, request.states)
     )
+    error = request.settings.profile_error
     channels = [
-        fitted(walked, np.einsum("w,swb->sb", weights, light), wanted)
+        fitted(walked, np.einsum("w,swb->sb", weights, light), wanted, error)
         for weights in request.lighting.weights(request.settings.profile_wavelengths)
     ]
     return {

@@ -21,6 +21,10 @@ DISTANCES = np.geomspace(NEAREST, FARTHEST, 40)
 
 DEGREE = 2
 
+USUAL, SEEN = 0.1, 0.25
+"""Spread that counts as it is, and the power by which light counts more where it is fainter. The
+eye sees how many times brighter, nearly, so the tail of a spread matters beyond what it holds."""
+
 RIDGE = 0.01
 """Weight of a polynomial's coefficients, for a spread of 1 that is off."""
 
@@ -73,11 +77,12 @@ def design_places(axes: LookAxes, count: int) -> np.ndarray:
 def terms(skin: Skin, axes: LookAxes, states: np.ndarray) -> np.ndarray:
     """What the polynomials are of, (N, T), at states (N, 5): products of four numbers.
 
-    Melanin is that of the specimen, not the state's: what would overfill a layer is cut.
+    Of melanin it is the square root: light fades fastest with the first of it. It is that of the
+    specimen, not the state's: what would overfill a layer is cut.
     """
     untanned = _melanin(skin.at(skin.untanned_state))
     melanin = np.array([_melanin(skin.at(state)) for state in states])
-    relative = melanin / untanned if untanned > 0.0 else np.ones(len(states))
+    relative = np.sqrt(melanin / untanned) if untanned > 0.0 else np.ones(len(states))
     places = axes.coordinates(states)
     numbers = [relative - 1.0]
     for knots, place in zip(axes.knots[1:], places.T[1:], strict=True):
@@ -91,7 +96,9 @@ def terms(skin: Skin, axes: LookAxes, states: np.ndarray) -> np.ndarray:
     return np.stack(columns, axis=-1)
 
 
-def fitted(walked: np.ndarray, light: np.ndarray, wanted: np.ndarray) -> NearFar:
+def fitted(
+    walked: np.ndarray, light: np.ndarray, wanted: np.ndarray, error: float = 0.01
+) -> NearFar:
     """Near share and far width at wanted states, from the light of walked ones.
 
     Parameters
@@ -102,6 +109,8 @@ def fitted(walked: np.ndarray, light: np.ndarray, wanted: np.ndarray) -> NearFar
         Their light, as `hylios.transport.shared_profiles.Profiles` has it.
     wanted : (N, T) array
         `terms` of the states to tell.
+    error : float
+        Of the walks: light that is fainter than twice that does not count still more.
     """
     from scipy.optimize import least_squares  # slow to import, as numba
 
@@ -110,6 +119,8 @@ def fitted(walked: np.ndarray, light: np.ndarray, wanted: np.ndarray) -> NearFar
     lit = light.sum(axis=1) > 0.0
     walked, spread = walked[lit], edge_spread(DISTANCE_EDGES, light[lit], DISTANCES)
     count = walked.shape[1]
+    brightness = np.maximum(spread, 0.0).mean(axis=0) if lit.any() else np.ones(DISTANCES.size)
+    weight = (USUAL / (brightness + 2.0 * error)) ** SEEN / np.sqrt(DISTANCES.size)
     spreads = burley_edge_spread(np.exp(SPREADS))
     slopes = np.gradient(spreads, SPREADS)
     ridge = RIDGE * np.diag(np.arange(2 * count) % count > 0)
@@ -122,13 +133,13 @@ def fitted(walked: np.ndarray, light: np.ndarray, wanted: np.ndarray) -> NearFar
 
     def misfit(parameters: np.ndarray) -> np.ndarray:
         far, shape, _ = shapes(parameters)
-        off = (far * shape - spread) / np.sqrt(DISTANCES.size)
+        off = (far * shape - spread) * weight
         return np.concatenate([off.ravel(), ridge @ parameters])
 
     def slope(parameters: np.ndarray) -> np.ndarray:
         far, shape, steepness = shapes(parameters)
-        by_share = -far * (1.0 - far) * shape / np.sqrt(DISTANCES.size)
-        by_width = -far * steepness / np.sqrt(DISTANCES.size)
+        by_share = -far * (1.0 - far) * shape * weight
+        by_width = -far * steepness * weight
         rows = [
             (part[:, :, None] * walked[:, None, :]).reshape(-1, count)
             for part in (by_share, by_width)

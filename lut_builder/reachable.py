@@ -16,9 +16,7 @@ from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin
 from hylios.skin.skin import MOST_BLOOD
 from hylios.table import LookAxes
-from hylios.table.axes import BEND_DEGREE
-from hylios.tanning import Exposures, spread_of
-from hylios.tanning.spread import fitted, powers
+from hylios.tanning import Exposures, Spread, spread_of
 from hylios.tissue import Stack
 
 DAYS = 60
@@ -35,8 +33,14 @@ HOURS_BETWEEN = 2.0
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
 
-WIDER = 0.1
-"""The same of the spread's axis, for tans of other kinetics."""
+DEPARTURES, OTHERS = (-0.7, 0.4), 24
+"""How far the spread's axis reaches at least, for tans of other kinetics, and schedules of them."""
+
+BEYOND = (1.0, 0.35)
+"""Where knots lie on the way to tans of other kinetics that are farther off."""
+
+MOST_LEAN = 10.0
+"""Most that the second log-ratio may depart from the sheet where the first does by 1."""
 
 LEAST_SPAN = 1e-6
 """Least span of the states along an axis, in the logarithm. A narrower axis comes from rounding and
@@ -54,11 +58,14 @@ SEEN_NM = (450.0, 550.0, 650.0)
 PLACES = 41
 """Melanin contents at which it is computed."""
 
-EVENLY = 4.0
+EVENLY = 12.0
 """Lightness that counts as much as a step of 1 in melanin's logarithm."""
 
-WEIGHTS = {"pale": 1.0, "tan": 6.0, "freckle": 2.0}
+WEIGHTS = {"pale": 1.0, "tan": 10.0, "freckle": 2.0}
 """How closely knots lie below the untanned skin's melanin, within that of tans, and beyond."""
+
+SHORT = 1.0 / 3.0
+"""Part of a step of the whole table's below which a scene's last step is none of its own."""
 
 NEAR = 0.01
 """Least step of a scene's axis, in the logarithm: .09 CIEDE2000 at most."""
@@ -125,18 +132,20 @@ def choose_axes(skin: Skin, knots: Sequence[int], seed: int = 0) -> LookAxes:
     InputError
         As `untanned_state`.
     """
-    untanned = untanned_state(skin)
+    untanned_state(skin)
     states = reachable_states(skin, SCHEDULES, seed)
-    direction = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med).directions[:, 0]
-    axes = LookAxes(untanned[:3], direction, _bend(untanned, direction, states), 4 * (np.zeros(1),))
-    melanin, thickness, spread, _ = axes.coordinates(states).T
+    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    axes = LookAxes(sheet, np.zeros(1), 4 * (np.zeros(1),))
+    melanin, thickness, *_ = axes.coordinates(states).T
     counts = [*knots, 1, 1, 1][:4]
+    spread, bend = _spread(skin, sheet, states, counts[2])
     return replace(
         axes,
+        bend=bend,
         knots=(
             _melanin_knots(skin, axes, float(melanin.max()), counts[0]),
-            _knots(thickness.min(), thickness.max(), counts[1], MARGIN),
-            _knots(spread.min(), spread.max(), counts[2], WIDER),
+            _knots(thickness.min(), thickness.max(), counts[1]),
+            spread,
             np.linspace(0.0, np.log(MOST_BLOOD), counts[3]),
         ),
     )
@@ -152,16 +161,46 @@ def within(axes: LookAxes, states: np.ndarray) -> LookAxes:
     knots = [
         _knots_within(own, low, high) for own, low, high in zip(axes.knots, *ends, strict=True)
     ]
-    bend = _bend(np.append(axes.untanned, 1.0), axes.direction, states)
+    bend = _lean(*_departures(axes.sheet, states)) * knots[2]
     return replace(axes, bend=bend, knots=tuple(knots), bounded=True)
 
 
-def _bend(untanned: np.ndarray, direction: np.ndarray, states: np.ndarray) -> np.ndarray:
-    """`LookAxes.bend` of the states (N, 4)."""
-    ratios = np.log(states / untanned)
-    second = np.cross(np.full(3, 1.0 / np.sqrt(3.0)), direction)
-    terms = powers(ratios[:, :3] @ direction, ratios[:, 3], BEND_DEGREE)
-    return fitted(terms, ratios[:, :3] @ second)
+def _departures(sheet: Spread, states: np.ndarray) -> np.ndarray:
+    """How far the two log-ratios of states (N, 4) depart from the sheet, (2, N)."""
+    melanin, thickness = np.log(states[:, :3].sum(axis=1)), np.log(states[:, 3])
+    ratios = np.log(states[:, :3] / sheet.untanned) @ sheet.directions
+    return (ratios - sheet.log_ratios(melanin, thickness)).T
+
+
+def _lean(first: np.ndarray, second: np.ndarray) -> float:
+    """How far the second log-ratio (N,) departs from the sheet where the first (N,) does by 1."""
+    if np.ptp(first) < LEAST_SPAN:
+        return 0.0
+    lean = float(np.clip(first @ second / (first @ first), -MOST_LEAN, MOST_LEAN))
+    return round(lean, 6)  # the same wherever in memory the sums were taken
+
+
+def _spread(
+    skin: Skin, sheet: Spread, states: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Knots of the spread, evenly apart on either side of the sheet, and the bend at them.
+
+    Where tans of the measured kinetics lie far off, as in dark skin, the knots are as near as the
+    skin's own states (N, 4), and two more lie out there.
+    """
+    first, second = _departures(sheet, states)
+    if np.ptp(first) < LEAST_SPAN or count == 1:
+        return np.zeros(1), np.zeros(1)
+    others = reachable_states(replace(skin, kinetics="measured"), OTHERS, 0)
+    far, along = _departures(sheet, others)
+    low, high = DEPARTURES
+    if far.min() > low:
+        knots = _knots(min(first.min(), low), max(first.max(), high), count)
+        return knots, _lean(first, second) * knots
+    knots = _knots(first.min(), first.max(), count)
+    bend = _lean(first, second) * knots
+    beyond = np.round((1.0 + MARGIN) * float(far.min()) * np.array(BEYOND), 6)
+    return np.append(beyond, knots), np.append(_lean(far, along) * beyond, bend)
 
 
 def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np.ndarray:
@@ -200,7 +239,7 @@ def _lightness(skin: Skin, axes: LookAxes, melanin: np.ndarray) -> np.ndarray:
     return 116.0 / np.sqrt(len(SEEN_NM)) * np.cbrt(np.transpose(total))
 
 
-def _knots(lowest: float, highest: float, count: int, margin: float) -> np.ndarray:
+def _knots(lowest: float, highest: float, count: int) -> np.ndarray:
     """Knots over [lowest, highest], evenly spaced on either side of 0, with one at 0.
 
     A side that is hardly reached at all, such as less thickness than the untanned skin's, gets
@@ -208,7 +247,7 @@ def _knots(lowest: float, highest: float, count: int, margin: float) -> np.ndarr
     """
     if highest - lowest < LEAST_SPAN or count == 1:
         return np.zeros(1)
-    wider = margin * (highest - lowest)
+    wider = MARGIN * (highest - lowest)
     low = lowest - wider if lowest < -wider else 0.0
     high = highest + wider if highest > wider else 0.0
     if count < 3:
@@ -227,7 +266,7 @@ def _knots_within(own: np.ndarray, low: float, high: float) -> np.ndarray:
     ends = np.array([low if low < -NEAR else 0.0, high if high > NEAR else 0.0])
     steps = np.diff(own)
     inner = own[1:-1][
-        (own[1:-1] - ends[0] > 0.25 * steps[:-1]) & (ends[1] - own[1:-1] > 0.25 * steps[1:])
+        (own[1:-1] - ends[0] > SHORT * steps[:-1]) & (ends[1] - own[1:-1] > SHORT * steps[1:])
     ]
     knots = np.unique(np.concatenate([ends, [0.0], inner]))
     return knots if len(knots) != 2 else np.linspace(knots[0], knots[1], min(3, len(own)))

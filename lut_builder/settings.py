@@ -33,7 +33,8 @@ class Settings:
     Attributes
     ----------
     knots : tuple of int
-        Numbers of knots of melanin, thickness, spread and blood; an axis left out has one.
+        Numbers of knots of melanin, thickness, spread and blood; an axis left out has one. Where
+        tans of other kinetics lie far off, the spread has two more.
     colour_wavelengths : int
         From which colours are made (`hylios.quadrature.skin_quadrature`); 0 for no colours.
     bands : tuple of float
@@ -119,15 +120,15 @@ class Settings:
 
 PRESETS = {
     "preview": Settings(
-        knots=(9, 2, 2, 3),
+        knots=(9, 2, 1, 4),
         colour_wavelengths=4,
         profile_error=0.05,
         profile_states=12,
         nodes=18,
     ),
-    "standard": Settings(knots=(16, 3, 4, 4), profile_error=0.01),
+    "standard": Settings(knots=(16, 4, 3, 5), colour_wavelengths=10, profile_error=0.01),
     "reference": Settings(
-        knots=(20, 3, 5, 5), colour_wavelengths=12, profile_error=0.005, profile_states=80
+        knots=(20, 4, 3, 6), colour_wavelengths=12, profile_error=0.005, profile_states=80
     ),
 }
 """`lut-builder trade` measures them beside the front of time against error."""

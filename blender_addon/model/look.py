@@ -33,6 +33,10 @@ COLOUR, WIDTH, NEAR, FAR = "subsurface_colour", "profile_width", "near_share", "
 LEAST_SPAN = 0.1
 """Least v to take for the thickness that skin reaches with so much melanin."""
 
+SEEN, USUAL = (0.0, 0.35, 0.7), 0.15
+"""Thicknesses that are looked up, of 1 that skin reaches with so much melanin, and the one of what
+is told of one thickness alone."""
+
 NORMAL_ANGLE = 8.0
 """Angle of view of the table's colour, in degrees."""
 
@@ -120,7 +124,7 @@ def look(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> L
     grid = grid_of(table, minimal, kinetics)
     planes = grid.planes(table, _wanted(table))
     thin, thick = grid.thickness
-    usual = np.clip((0.5 * grid.reached - thin) / (thick - thin), 0.0, 1.0)
+    usual = np.clip((USUAL * grid.reached - thin) / (thick - thin), 0.0, 1.0)
     colour = planes[COLOUR]
     roughness = roughness_of(table)
     bend, bow = _by_angle(planes, roughness)
@@ -186,22 +190,35 @@ class Grid:
     def planes(self, table: SkinTable, names: list[str]) -> dict[str, NDArray[np.float64]]:
         """Planes (M, 2, B, components) over melanin, the thinnest and the thickest skin, and blood.
 
-        Skin with little melanin gets only so thick. What lies straight between it and thin skin
-        decides the look of the thickest, which is never reached there.
+        What lies straight between the two misses skin of three thicknesses (`SEEN`) by equally
+        much. Skin with little melanin gets only so thick: in thicker skin melanin is spread as in
+        that.
         """
         thin, thick = self.thickness
         u = 2.0 * np.log(self.roots)
         b = np.linspace(*self.blood, BLOOD_ROWS if self.blood[1] > self.blood[0] else 1)
         as_thick = np.clip(self.reached, min(thin + LEAST_SPAN, thick), thick)
-        v = np.stack([np.full_like(u, thin), as_thick], axis=1)
+        v = thin + np.multiply.outer(as_thick - thin, SEEN)
         of_usual_blood = self.spread.states(u[:, None], np.minimum(v, self.reached[:, None]))
         states = np.repeat(of_usual_blood[:, :, None], len(b), axis=2)
         states[..., 3], states[..., 4] = np.exp(v)[..., None], np.exp(b)
         planes = table.lookup(states, names)
-        further = ((thick - thin) / (as_thick - thin))[:, None, None]
-        for values in planes.values():
-            values[:, 1] = np.maximum(values[:, 0] + further * (values[:, 1] - values[:, 0]), 0.0)
-        return planes
+        further = (thick - thin) / (v[:, 2] - thin)
+        tanned = np.clip(2.0 * (self.reached - thin) / LEAST_SPAN - 1.0, 0.0, 1.0)
+        return {name: _straight(values, further, tanned) for name, values in planes.items()}
+
+
+def _straight(values: NDArray, further: NDArray, tanned: NDArray) -> NDArray[np.float64]:
+    """Numbers (M, 2, B, C) of thin and thick skin, from those (M, 3, B, C) of three thicknesses.
+
+    `further` (M,) is how many times as far from the first as the third the thickest skin is. Where
+    `tanned` (M,) is 0, as without sun, the first is met.
+    """
+    further, tanned = further[:, None, None], tanned[:, None, None]
+    first, second, third = np.moveaxis(values, 1, 0)
+    half = 0.25 * tanned * (2.0 * second - first - third)
+    first, third = first + half, third + half
+    return np.maximum(np.stack([first, first + further * (third - first)], axis=1), 0.0)
 
 
 def grid_of(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> Grid:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.tanning.spread import across, powers, shares_at
+from hylios.tanning.spread import Spread, shares_at
 
 STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness", "blood")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
@@ -17,9 +17,8 @@ AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 LOOK_AXES = ("melanin", "thickness", "spread", "blood")
 """Names of the axes of `LookAxes`, in their order."""
 
-BEND_DEGREE = 3
-BEND_TERMS = powers(0.0, 0.0, BEND_DEGREE).size
-"""Degree of the polynomial `LookAxes.bend`, and the number of its terms."""
+LARGEST_BEND = 30.0
+"""Largest of `LookAxes.bend`."""
 
 LARGEST_COORDINATE = 30.0
 """Largest coordinate of a knot: a state 1e13 times the untanned one is no skin's."""
@@ -89,26 +88,23 @@ class LookAxes(_Grid):
     """Four axes of what changes a skin's look: melanin, thickness, spread and blood.
 
     The first, second and last coordinate are the natural logarithms of a state's total melanin,
-    thickness and blood, relative to the untanned skin's. The third is how melanin is spread over
-    the layers: the logarithms of their ratios to `untanned`, projected on `direction`. All are 0
-    without sun. A second such log-ratio, across the first, follows from spread and thickness.
+    thickness and blood, relative to the untanned skin's. The third is how far melanin is spread
+    over the layers otherwise than on the kinetics' sheet: what the state's first log-ratio is
+    more than there. All are 0 without sun. The second log-ratio departs from the sheet along.
 
     Attributes
     ----------
-    untanned : (3,) array
-        Melanin of basale, spinosum, granulosum without sun, relative to their total.
-    direction : (3,) array
-        Of the spread; of length 1, its sum 0.
-    bend : (BEND_TERMS,) array
-        Coefficients of the second log-ratio: of the products of powers of spread and thickness
-        (`hylios.tanning.spread.powers`).
+    sheet : Spread
+        How melanin is spread, given how much of it there is and how thick the skin.
+    bend : (knots of the spread,) array
+        How far the second log-ratio departs from the sheet at the knots of the spread; straight in
+        between, and beyond as at the last.
     knots : four ascending arrays, each with at least one knot
     bounded : bool
         Whether the table says nothing beyond the outermost knots, as one for one scene alone.
     """
 
-    untanned: np.ndarray
-    direction: np.ndarray
+    sheet: Spread
     bend: np.ndarray
     knots: tuple[np.ndarray, ...]
     bounded: bool = False
@@ -121,24 +117,18 @@ class LookAxes(_Grid):
         InputError
             If the states have another shape, or one has a number that is not above 0.
         """
-        ratios = _logarithms(states, np.append(self.untanned, [1.0, 1.0]))
-        return np.stack(
-            [
-                np.log(np.asarray(states)[..., :3].sum(axis=-1)),
-                ratios[..., 3],
-                ratios[..., :3] @ self.direction,
-                ratios[..., 4],
-            ],
-            axis=-1,
-        )
+        ratios = _logarithms(states, np.append(self.sheet.untanned, [1.0, 1.0]))
+        melanin, thickness = np.log(np.asarray(states)[..., :3].sum(axis=-1)), ratios[..., 3]
+        first = ratios[..., :3] @ self.sheet.directions[:, 0]
+        spread = first - self.sheet.log_ratios(melanin, thickness)[..., 0]
+        return np.stack([melanin, thickness, spread, ratios[..., 4]], axis=-1)
 
     def states(self, coordinates: np.ndarray) -> np.ndarray:
         """States (..., 5) at coordinates (..., 4)."""
         melanin, thickness, spread, blood = np.moveaxis(np.asarray(coordinates, dtype=float), -1, 0)
-        second = powers(spread, thickness, BEND_DEGREE) @ self.bend
-        shares = shares_at(
-            self.untanned, across(self.direction), np.stack([spread, second], axis=-1)
-        )
+        there = self.sheet.log_ratios(melanin, thickness)
+        departure = np.stack([spread, np.interp(spread, self.knots[2], self.bend)], axis=-1)
+        shares = shares_at(self.sheet.untanned, self.sheet.directions, there + departure)
         return np.concatenate(
             [
                 np.exp(melanin)[..., None] * shares,
@@ -187,11 +177,13 @@ def require_axes(axes: Axes) -> None:
     """Raise InputError unless axes could be a skin's."""
     knots_fit = all(map(_are_knots, axes.knots))
     if isinstance(axes, LookAxes):
-        if not (knots_fit and len(axes.knots) == len(LOOK_AXES) and _is_spread(axes)):
+        knots_fit = knots_fit and len(axes.knots) == len(LOOK_AXES)
+        if not (knots_fit and axes.bend.shape == axes.knots[2].shape and _is_sheet(axes.sheet)):
             raise InputError(
-                "the table's axes are not three positive shares of melanin that sum to 1, a "
-                f"direction of spread with its bend, and ascending knots of {', '.join(LOOK_AXES)} "
-                f"within {LARGEST_COORDINATE:g} of 0."
+                "the table's axes are not a sheet of three positive shares of melanin that sum to "
+                "1, a direction of spread, ascending thicknesses and as many reaches of melanin, "
+                f"ascending knots of {', '.join(LOOK_AXES)} within {LARGEST_COORDINATE:g} of 0, "
+                "and a bend for each of the spread's."
             )
     elif not (_is_state(axes.untanned) and _is_basis(axes) and knots_fit):
         raise InputError(
@@ -200,15 +192,17 @@ def require_axes(axes: Axes) -> None:
         )
 
 
-def _is_spread(axes: LookAxes) -> bool:
-    shapes = axes.untanned.shape, axes.direction.shape, axes.bend.shape
-    if shapes != ((3,), (3,), (BEND_TERMS,)):
-        return False
-    shares_fit = np.all(axes.untanned > 1e-6) and abs(axes.untanned.sum() - 1.0) < 1e-6
-    direction_fits = (
-        abs(axes.direction @ axes.direction - 1.0) < 1e-6 and abs(axes.direction.sum()) < 1e-6
+def _is_sheet(sheet: Spread) -> bool:
+    first, strips = sheet.directions[:, 0], sheet.thicknesses
+    return bool(
+        np.all(sheet.untanned > 1e-6)
+        and abs(sheet.untanned.sum() - 1.0) < 1e-6
+        and abs(first @ first - 1.0) < 1e-6
+        and abs(first.sum()) < 1e-6
+        and _are_knots(strips)
+        and sheet.least.shape == sheet.most.shape == strips.shape
+        and np.all(sheet.least <= sheet.most)
     )
-    return bool(shares_fit and direction_fits and np.all(np.abs(axes.bend) < 1e3))
 
 
 def _is_state(untanned: np.ndarray) -> bool:

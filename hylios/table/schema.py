@@ -19,7 +19,7 @@ from hylios.skin.specimen import Specimen
 from hylios.sun.action_spectra import Absorptance
 from hylios.table.axes import (
     AXIS_UNIT,
-    BEND_TERMS,
+    LARGEST_BEND,
     LARGEST_COORDINATE,
     LOOK_AXES,
     STATE_NAMES,
@@ -46,7 +46,8 @@ from hylios.table.kinds import (
     whole,
 )
 from hylios.table.planes import MEANINGS, component_names
-from hylios.tanning import PIGMENTATIONS, MelaninDynamics
+from hylios.tanning import PIGMENTATIONS, MelaninDynamics, Spread
+from hylios.tanning.spread import TERMS, across
 
 FORMAT = "skin tan table"
 FORMAT_VERSION, PRINCIPAL_AXES_VERSION = 4, 3
@@ -177,11 +178,20 @@ _PRINCIPAL_AXES = holding(
     {"state": list_of(text, 4, 4)},
 )
 _LOOK_AXIS = holding({"name": choice(LOOK_AXES), "knots": _KNOTS}, {"unit": text})
-_LOOK_AXES = holding(
+_SHEET = holding(
     {
         "untanned_melanin": list_of(number(1e-6, 1.0), 3, 3),
-        "spread_direction": list_of(number(-1.1, 1.1), 3, 3),
-        "spread_bend": list_of(number(-1e3, 1e3), BEND_TERMS, BEND_TERMS),
+        "direction": list_of(number(-1.1, 1.1), 3, 3),
+        "thicknesses": _KNOTS,
+        "least_melanin": _KNOTS,
+        "most_melanin": _KNOTS,
+        "coefficients": list_of(list_of(number(-1e4, 1e4), 2, 2), TERMS, TERMS),
+    }
+)
+_LOOK_AXES = holding(
+    {
+        "sheet": _SHEET,
+        "bend": list_of(number(-LARGEST_BEND, LARGEST_BEND), 1, MOST_STATES),
         "bounded": truth,
         "list": list_of(_LOOK_AXIS, len(LOOK_AXES), len(LOOK_AXES)),
     },
@@ -268,12 +278,19 @@ def _axes(content: Mapping[str, Any]) -> Axes:
         raise InputError(
             f"the table's axes are {', '.join(names)}; expected {', '.join(LOOK_AXES)}."
         )
-    return LookAxes(
-        untanned=np.array(told["untanned_melanin"], dtype=float),
-        direction=np.array(told["spread_direction"], dtype=float),
-        bend=np.array(told["spread_bend"], dtype=float),
-        knots=knots,
-        bounded=told["bounded"],
+    bend = np.array(told["bend"], dtype=float)
+    return LookAxes(_sheet(told["sheet"]), bend, knots, told["bounded"])
+
+
+def _sheet(told: Mapping[str, Any]) -> Spread:
+    numbers = {key: np.array(value, dtype=float) for key, value in told.items()}
+    return Spread(
+        untanned=numbers["untanned_melanin"],
+        directions=across(numbers["direction"]),
+        thicknesses=numbers["thicknesses"],
+        least=numbers["least_melanin"],
+        most=numbers["most_melanin"],
+        coefficients=numbers["coefficients"],
     )
 
 
@@ -282,9 +299,15 @@ def described_axes(axes: Axes) -> tuple[int, dict[str, Any]]:
     if isinstance(axes, LookAxes):
         return FORMAT_VERSION, {
             "state": list(STATE_NAMES),
-            "untanned_melanin": axes.untanned.tolist(),
-            "spread_direction": axes.direction.tolist(),
-            "spread_bend": axes.bend.tolist(),
+            "sheet": {
+                "untanned_melanin": axes.sheet.untanned.tolist(),
+                "direction": axes.sheet.directions[:, 0].tolist(),
+                "thicknesses": axes.sheet.thicknesses.tolist(),
+                "least_melanin": axes.sheet.least.tolist(),
+                "most_melanin": axes.sheet.most.tolist(),
+                "coefficients": axes.sheet.coefficients.tolist(),
+            },
+            "bend": axes.bend.tolist(),
             "bounded": axes.bounded,
             "list": [
                 {"name": name, "unit": AXIS_UNIT, "knots": knots.tolist()}

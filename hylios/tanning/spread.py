@@ -19,7 +19,11 @@ from hylios.tanning.simulation import states_at
 
 SCHEDULES, DAYS, MOST_EXPOSURES, SEED = 24, 60, 11, 0
 LEAST_DOSE, MOST_DOSE = 0.35, 10.5
-"""The schedules simulated: how many, days, most exposures, and doses as multiples of the MMD."""
+"""The random schedules simulated: how many, days, most exposures, and doses in MMD."""
+
+SINGLE, LEAST_SINGLE = 24, 1.05
+"""Schedules of one exposure alone, besides, and the least dose of them in MMD. Such a tan is the
+most usual, and while it rises melanin is spread otherwise than after several exposures."""
 
 HOURS_BETWEEN = 12.0
 
@@ -151,11 +155,12 @@ def spread_of(dynamics: Kinetics, *, mmd: float, med: float) -> Spread:
 
 
 def _reached(dynamics: Kinetics, mmd: float, med: float) -> np.ndarray:
-    """States (N, 4) that seeded schedules lead through."""
+    """States (N, 4) that seeded schedules, and those of one exposure, lead through."""
     random = np.random.default_rng(SEED)
     hours = 24 * DAYS
-    doses = np.zeros((SCHEDULES, hours))
-    for schedule in doses:
+    doses = np.zeros((SCHEDULES + SINGLE, hours))
+    doses[SCHEDULES:, 0] = mmd * np.geomspace(LEAST_SINGLE, MOST_DOSE, SINGLE)
+    for schedule in doses[:SCHEDULES]:
         count = random.integers(1, MOST_EXPOSURES + 1)
         when = random.choice(hours, count, replace=False)
         schedule[when] = mmd * random.uniform(LEAST_DOSE, MOST_DOSE, count)
@@ -212,6 +217,10 @@ def fitted(terms: np.ndarray, values: np.ndarray) -> NDArray[np.float64]:
     """Coefficients (T, ...) with which the terms (N, T) come nearest to values (N, ...)."""
     normal = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
     return np.linalg.solve(normal, terms.T @ values)
+
+
+TERMS = powers(0.0, 0.0, DEGREE).size
+"""Number of the polynomial's terms."""
 
 
 def across(direction: np.ndarray) -> NDArray[np.float64]:

@@ -57,7 +57,7 @@ def _described_axes(axes: LookAxes | StateAxes) -> list[str]:
     """What a table's axes are, line by line."""
     listed = [np.array2string(np.round(knots, 3), max_line_width=10**6) for knots in axes.knots]
     if isinstance(axes, LookAxes):
-        direction = np.round(axes.direction, 3)
+        direction = np.round(axes.sheet.directions[:, 0], 3)
         return [
             f"spread: {direction} in ln of (basale, spinosum, granulosum) to the untanned",
             *(

@@ -50,12 +50,12 @@ class Extent:
     broad_states: int = 30
     walked_states: int = 3
     knots: tuple[tuple[int, ...], ...] = (
-        (9, 2, 2, 3),
-        (12, 2, 3, 3),
-        (16, 3, 4, 4),
-        (20, 3, 5, 5),
+        (9, 2, 1, 4),
+        (12, 3, 3, 4),
+        (16, 4, 3, 5),
+        (20, 4, 3, 6),
     )
-    wavelengths: tuple[int, ...] = (4, 8, 12)
+    wavelengths: tuple[int, ...] = (4, 8, 10, 12)
     nodes: tuple[int, ...] = (14, 18, NODES)
     profile_errors: tuple[float, ...] = (0.05, 0.01, 0.005)
     profile_wavelengths: tuple[int, ...] = (4, 8)
@@ -65,7 +65,7 @@ class Extent:
     fine_profile_wavelengths: int = 12
     fine_profile_error: float = 0.006
     longest: float = 6.0
-    file_knots: tuple[int, ...] = (16, 3, 4, 4)
+    file_knots: tuple[int, ...] = (16, 4, 3, 5)
     repeats: int = 2
 
 

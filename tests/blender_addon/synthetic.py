@@ -49,9 +49,8 @@ def smooth_table(pigmentation: str = "intermediate") -> SkinTable:
     """A table of format 4, with all planes that a shader can show."""
     sheet = spread_of(PIGMENTATIONS[pigmentation], mmd=MMD, med=MED)
     axes = LookAxes(
-        untanned=sheet.untanned,
-        direction=sheet.directions[:, 0],
-        bend=np.zeros(9),
+        sheet=sheet,
+        bend=np.zeros(1),
         knots=(
             np.concatenate([np.linspace(-6.0, -1.0, 6), np.linspace(-0.8, 1.8, 27)]),
             np.array([0.0, 0.1, 0.25]),

@@ -11,6 +11,7 @@ from hylios.adding import colours
 from hylios.changed_table import changed_table
 from hylios.colour_difference import ciede2000, lab
 from hylios.errors import InputError
+from hylios.quadrature import MOST
 from hylios.skin.biology import Biology
 from hylios.table import read_table, skin_of
 from hylios.tanning.spread import spread_of
@@ -44,7 +45,8 @@ def tans(table, roots, blood=0.0, part=0.5):
 
 def errors(table, biology: Biology, states: np.ndarray, *, rough: bool = False) -> np.ndarray:
     skin = skin_of(table.provenance)
-    solved = colours(replace(skin, specimen=biology.of(skin.specimen)), states).subsurface
+    changed = replace(skin, specimen=biology.of(skin.specimen))
+    solved = colours(changed, states, count=MOST).subsurface
     told = changed_table(table, biology, rough=rough).plane("subsurface_colour", states)
     return ciede2000(lab(told), lab(solved))
 
@@ -101,7 +103,8 @@ def test_more_melanin_is_another_place_on_the_table():
     table = read_table(TABLES / "III.exr")
     states = tans(table, [1.0, 1.3])
     more = changed_table(table, Biology(melanin=1.5)).lookup(states, ["near_share", "far_width"])
-    moved = states * np.array([1.5, 1.5, 1.5, 1.0, 1.0])
+    places = table.axes.coordinates(states) + [np.log(1.5), 0.0, 0.0, 0.0]
+    moved = table.axes.states(places)
     for name, plane in table.lookup(moved, ["near_share", "far_width"]).items():
         np.testing.assert_allclose(more[name], plane)
 
@@ -110,7 +113,7 @@ def test_oblique_colours_change_too():
     table = read_table(TABLES / "II.exr")
     skin, biology, states = skin_of(table.provenance), Biology(blood=2.0), tans(table, [1.0, 1.2])
     changed = replace(skin, specimen=biology.of(skin.specimen))
-    solved = colours(changed, states, angle=60.0).subsurface
+    solved = colours(changed, states, count=MOST, angle=60.0).subsurface
     told = changed_table(table, biology).plane("subsurface_colour_60", states)
     assert ciede2000(lab(told), lab(solved)).max() < 0.15
 

@@ -36,8 +36,7 @@ KNOTS = (
 def axes():
     skin = phototype("V").skin
     sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
-    bend = np.random.default_rng(1).normal(0.0, 0.1, 9)
-    return LookAxes(sheet.untanned, sheet.directions[:, 0], bend, KNOTS)
+    return LookAxes(sheet, -1.2 * KNOTS[2], KNOTS)
 
 
 @pytest.fixture(scope="module")
@@ -63,10 +62,28 @@ def test_coordinates_are_logarithms_of_melanin_thickness_and_blood(axes):
     places = axes.coordinates(some)
     assert places[:, 0] == pytest.approx(np.log(some[:, :3].sum(axis=1)))
     assert places[:, [1, 3]] == pytest.approx(np.log(some[:, 3:]))
-    more = axes.coordinates(some * np.array([2.5, 2.5, 2.5, 1.0, 1.0]))
-    assert more - places == pytest.approx(np.tile([np.log(2.5), 0.0, 0.0, 0.0], (50, 1)), abs=1e-12)
-    assert axes.coordinates(np.append(axes.untanned, 1.0)) == pytest.approx(np.zeros(4), abs=1e-12)
+    flushed = axes.coordinates(some * np.array([1.0, 1.0, 1.0, 1.0, 2.5]))
+    assert flushed - places == pytest.approx(
+        np.tile([0.0, 0.0, 0.0, np.log(2.5)], (50, 1)), abs=1e-12
+    )
+    assert axes.coordinates(np.append(axes.sheet.untanned, 1.0)) == pytest.approx(
+        np.zeros(4), abs=1e-12
+    )
     assert np.array_equal(axes.coordinates(some[:, :4])[:, 3], np.zeros(50))
+
+
+def test_the_spread_is_how_far_melanin_lies_off_the_sheet(axes):
+    """By the first log-ratio; the second departs by the bend."""
+    melanin, thickness = np.meshgrid(np.linspace(-2.0, 1.5, 6), np.linspace(0.0, 0.2, 4))
+    on_sheet = axes.sheet.states(melanin, thickness)
+    assert axes.coordinates(on_sheet)[..., 2] == pytest.approx(np.zeros((4, 6)), abs=1e-12)
+    off = axes.sheet.directions @ [0.3, -1.2 * 0.3]
+    shares = on_sheet[..., :3] * np.exp(off)
+    shares *= np.exp(melanin)[..., None] / shares.sum(axis=-1, keepdims=True)
+    states = np.concatenate([shares, on_sheet[..., 3:]], axis=-1)
+    places = axes.coordinates(states)
+    assert places[..., 2] == pytest.approx(np.full((4, 6), 0.3), abs=1e-12)
+    assert axes.states(places) == pytest.approx(states, rel=1e-12)
 
 
 def test_states_at_the_knots_have_the_knots_coordinates(axes):
@@ -97,8 +114,9 @@ def test_a_table_over_melanin_survives_its_channels_and_says_its_axes(table):
     ]
     again = from_stored(stored)
     assert isinstance(again.axes, LookAxes) and not again.axes.bounded
-    for name in ("untanned", "direction", "bend"):
-        assert np.array_equal(getattr(again.axes, name), getattr(table.axes, name))
+    assert np.array_equal(again.axes.bend, table.axes.bend)
+    for name in ("untanned", "directions", "thicknesses", "least", "most", "coefficients"):
+        assert np.array_equal(getattr(again.axes.sheet, name), getattr(table.axes.sheet, name))
     assert all(map(np.array_equal, again.axes.knots, table.axes.knots))
     some = states(20)
     assert again.plane("subsurface_colour", some) == pytest.approx(
@@ -135,10 +153,18 @@ def test_states_of_another_shape_are_refused(table):
         (lambda axes: axes.pop("bounded"), "axes has no bounded"),
         (lambda axes: axes["list"].pop(), r"axes.list is .*; expected a list of 4"),
         (lambda axes: axes["list"].reverse(), "axes are blood, spread, thickness, melanin"),
-        (lambda axes: axes["spread_bend"].pop(), "spread_bend is .*; expected a list of 9"),
-        (lambda axes: axes.update(spread_direction=[1, 0, 0]), "axes are not three positive"),
-        (lambda axes: axes.update(untanned_melanin=[1, 1, 1]), "axes are not three positive"),
-        (lambda axes: axes["list"][0].update(knots=[1.0, 0.0]), "axes are not three positive"),
+        (lambda axes: axes["bend"].append(31), "axes.bend.* 31; .*30"),
+        (lambda axes: axes["bend"].pop(), "a bend for each of the spread's"),
+        (lambda axes: axes["sheet"].pop("direction"), "axes.sheet has no direction"),
+        (
+            lambda axes: axes["sheet"]["coefficients"].pop(),
+            "coefficients is .*; expected a list of 20",
+        ),
+        (lambda axes: axes["sheet"]["most_melanin"].pop(), "axes are not a sheet"),
+        (lambda axes: axes["sheet"]["thicknesses"].reverse(), "axes are not a sheet"),
+        (lambda axes: axes["sheet"].update(direction=[1, 0, 0]), "axes are not a sheet"),
+        (lambda axes: axes["sheet"].update(untanned_melanin=[1, 1, 1]), "axes are not a sheet"),
+        (lambda axes: axes["list"][0].update(knots=[1.0, 0.0]), "axes are not a sheet"),
     ],
 )
 def test_axes_that_do_not_fit_are_refused(table, change, sentence):

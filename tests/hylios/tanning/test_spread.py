@@ -51,6 +51,23 @@ def test_states_on_the_sheet_look_like_those_reached(name):
     assert apart.mean() < MEAN[name] and apart.max() < LARGEST
 
 
+@pytest.mark.parametrize(("name", "mean", "largest"), [("III", 0.004, 0.03), ("VI", 0.045, 0.22)])
+def test_tans_of_one_exposure_look_like_those_on_the_sheet(name, mean, largest):
+    """The most usual tan, while it rises and fades: .08 and .31 off in VI by a sheet of schedules
+    with several exposures alone."""
+    skin, sheet = spread(name)
+    days = np.array([1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0])
+    states = np.concatenate(
+        [
+            skin.states(Exposures([0], [multiple * skin.mmd]), 24.0 * days)[:, :4]
+            for multiple in (1.2, 1.7, 2.0, 3.0, 5.0, 9.0)
+        ]
+    )
+    seen = colours(skin, on_sheet(sheet, states)[:, :4], count=4).total
+    apart = difference(colours(skin, states, count=4).total, seen)
+    assert apart.mean() < mean and apart.max() < largest
+
+
 @pytest.mark.parametrize("name", ["I", "III", "VI"])
 def test_a_state_keeps_melanin_thickness_and_blood_and_is_untanned_at_0(name):
     skin, sheet = spread(name)

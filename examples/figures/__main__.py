@@ -18,8 +18,10 @@ from examples.figures import (
     dose_schedules,
     goniometry,
     hyperspectral,
+    measured_tans,
     melanin_forms,
     people,
+    people_page,
     picture_page,
     predecessors,
     renders,
@@ -46,6 +48,7 @@ GROUPS = (
     dose_responses,
     tanning_claims,
     people,
+    measured_tans,
     spectral_renders,
     renders,
 )
@@ -66,7 +69,9 @@ def main() -> int:
         "--people", type=Path, help="measured skin to draw beside ours: CSV of wavelength_nm,s1,..."
     )
     parser.add_argument("--out", type=Path, default=Path("out/figures"))
-    parser.add_argument("--page", type=Path, help="page of docs for the rendered figures")
+    parser.add_argument(
+        "--page", type=Path, help="page of docs to write: of people, or of the rendered figures"
+    )
     return run(figures, parser.parse_args())
 
 
@@ -95,14 +100,17 @@ def figures(arguments: argparse.Namespace) -> None:
     )
     report.write(arguments.out / "report.md", rows, heading)
     if arguments.page:
-        picture_page.write(arguments.page, rows, arguments.out)
+        if measured_tans in groups and not {spectral_renders, renders} & {*groups}:
+            people_page.write(arguments.page, results[measured_tans]["rows"], arguments.out)
+        else:
+            picture_page.write(arguments.page, rows, arguments.out)
     missed = [row for row in rows if row.met is False]
     print(
         f"Made in {seconds:.0f} s, in {arguments.out.resolve()}; report.md has {len(rows)} lines."
     )
     print(f"{sum(row.met is True for row in rows)} aims met, {len(missed)} not:")
     for row in missed:
-        print(f"  {row.where}, {row.what}: thesis {row.printed}, ours {row.ours}")
+        print(f"  {row.where}, {row.what}: printed {row.printed}, ours {row.ours}")
 
 
 def groups_with(names: Sequence[str]) -> list[ModuleType]:

@@ -6,14 +6,15 @@ MMD at their peak, which is what can just be seen.
 """
 
 import argparse
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from hylios.lab.measured_tans import rows_of
 from hylios.skin.kinetics import MOST_GAINS
-from hylios.tanning import Exposures, MeasuredDynamics, states_at
+from hylios.tanning import Exposures, Kinetics, MeasuredDynamics, states_at
 
 BURN = 1.2
 """MMD of 2 MED: 2 over an MMD of 1.9 MED in light and 1.5 in medium and dark skin (Ravnbak et al.,
@@ -23,79 +24,68 @@ DAYS, HOURS_BETWEEN = 190, 2
 LEFT = 0.05
 """Share of a tan's peak with which it has gone."""
 
-SMALL = np.geomspace(0.2, 0.8, 12)
-"""Doses in MMD among which the smallest that tans is looked for."""
+SMALL = np.geomspace(0.2, 1.0, 24)
+SMALL_OF_A_JUMP = np.geomspace(0.4, 1.0, 100)
+"""Doses in MMD among which the smallest that tans is looked for; by the thesis it jumps."""
 
 STARTS, SPREAD, SEED = 6, (0.4, 0.3, 0.3, 0.3, 0.5, 0.3, 0.2), 0
 """Starts of the fit, and how far they lie around the shipped constants, in the logarithm."""
 
 
-@dataclass(frozen=True)
-class Row:
-    """What was measured.
+ROWS = tuple(row for row in rows_of("tan").values() if row.remark == "fitted")
+"""What is fitted, of what was measured."""
 
-    Attributes
-    ----------
-    name : str
-    measured, within : float
-        Value, and how far from it one may be; a tolerance is of the ratio for doses.
-    source : str
+
+def values(dynamics: Kinetics) -> dict[str, float]:
+    """What the dynamics make of the tans of people, by case, whatever skin they are of.
+
+    These are `ROWS` and other rows that the same tans answer.
     """
-
-    name: str
-    measured: float
-    within: float
-    source: str
-
-    def off(self, value: float) -> float:
-        """How far a value is off, over what it may be."""
-        if self.name.startswith("dose"):
-            return float(np.log(value / self.measured) / np.log1p(self.within))
-        return (value - self.measured) / self.within
-
-
-SUH, RAVNBAK = "Suh et al. 2007", "Ravnbak et al., Acta Derm Venereol 88:223, 2008"
-ROWS = (
-    Row("dose of 6 in 3 weeks, of one MMD", 0.5, 0.15, RAVNBAK),
-    Row("dose of 12 in 3 weeks, of one MMD", 0.33, 0.15, RAVNBAK),
-    Row("darkest after 2 MED, days", 5.5, 1.5, SUH),
-    Row("gone after 2 MED, days", 91.0, 15.0, SUH),
-    Row("gone after the last of 12, days", 137.0, 15.0, RAVNBAK),
-    Row("darkest after 12 in 3 weeks, days", 21.0, 3.0, "Ravnbak et al. 2009"),
-    Row(
-        "half of the most by one dose, MMD", 2.6, 0.6, "ESTIMATE: not before 2 (graded, Shono 1985)"
-    ),
-)
-
-
-def values(dynamics: MeasuredDynamics) -> NDArray[np.float64]:
-    """What the dynamics make of `ROWS`, whatever skin they are of."""
-    singles = np.array([1.0, BURN, 1.5, 2.0, 2.5, 3.0, 3.5, 10.0])
+    is_measured = isinstance(dynamics, MeasuredDynamics)
+    small, often = (SMALL, 0.5) if is_measured else (SMALL_OF_A_JUMP, 1.001)
+    singles = np.array([1.001, 0.5, BURN, 1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 10.0])
     doses = [_series(1, dose) for dose in singles]
-    doses += [_series(count, dose) for count in (6, 12) for dose in SMALL]
-    doses += [_series(12, 0.5)]
+    doses += [_series(count, dose) for count in (6, 12) for dose in small]
+    doses += [_series(count, often) for count in (6, 12)]
     curves = tans(dynamics, np.array(doses))
+    curves = curves / (1.0 if is_measured else curves[0].max())
     peaks = curves.max(axis=1)
-    single, six, twelve, last = np.split(peaks, [singles.size, singles.size + SMALL.size, -1])
-    half = np.interp(0.5 * single[-1], single, singles)
-    smallest = [_dose_of_one(own) for own in (six, twelve)]
-    burnt, often = curves[1], curves[-1]
-    end = _days(12)[-1]
-    return np.array([*smallest, _peak(burnt), _gone(burnt), _gone(often) - end, _peak(often), half])
+    single, six, twelve, _ = np.split(peaks, [singles.size, singles.size + small.size, -2])
+    order = np.argsort(singles)
+    half = np.interp(0.5 * single.max(), single[order], singles[order])
+    of_six, of_twelve = (_dose_of_one(own, small) for own in (six, twelve))
+    burnt, in_six, in_twelve = curves[2], curves[-2], curves[-1]
+    told = {
+        "dose of 6 in 3 weeks, of one MMD": of_six,
+        "dose of 12 in 3 weeks, of one MMD": of_twelve,
+        "darkest after 2 MED, days": _peak(burnt),
+        "gone after 2 MED, days": _gone(burnt),
+        "gone after the last of 12, days": _gone(in_twelve) - _days(12)[-1],
+        "darkest after 12 in 3 weeks, days": _peak(in_twelve),
+        "half of the most by one dose, MMD": half,
+        "gone after the last of 6, days": _gone(in_six) - _days(6)[-1],
+        "tan of half an MMD": single[1],
+        "sum of 6 in 3 weeks, in MMD": 6.0 * of_six,
+        "sum of 12 in 3 weeks, in MMD": 12.0 * of_twelve,
+    }
+    return {case: float(value) for case, value in told.items()}
 
 
-def tans(dynamics: MeasuredDynamics, doses: np.ndarray) -> NDArray[np.float64]:
+def tans(dynamics: Kinetics, doses: np.ndarray) -> NDArray[np.float64]:
     """New melanin (N, T) every `HOURS_BETWEEN` after doses by the hour (N, H) in MMD.
 
-    In tans of one MMD.
+    By the measured kinetics in tans of one MMD, by the thesis's relative to that without sun.
     """
-    seen = replace(
-        dynamics, untanned=(1.0, 0.0, 0.0), places=(1.0, 0.0, 0.0), gain=1.0, most=MOST_GAINS
-    )
+    seen = dynamics
+    if isinstance(dynamics, MeasuredDynamics):
+        seen = replace(
+            dynamics, untanned=(1.0, 0.0, 0.0), places=(1.0, 0.0, 0.0), gain=1.0, most=MOST_GAINS
+        )
     hours = doses.shape[1]
     times = np.arange(0, hours, HOURS_BETWEEN)
     exposures = Exposures(np.arange(hours), doses, np.zeros_like(doses))
-    return states_at(exposures, seen, times=times, mmd=1.0, med=1.0)[..., 0] - 1.0
+    states = states_at(exposures, seen, times=times, mmd=1.0, med=1.0)
+    return states[..., :3].sum(axis=-1) - 1.0
 
 
 def _days(count: int) -> NDArray[np.float64]:
@@ -110,9 +100,10 @@ def _series(count: int, dose: float) -> NDArray[np.float64]:
     return doses
 
 
-def _dose_of_one(peaks: np.ndarray) -> float:
-    """The dose of `SMALL` with which the tan is that of one MMD."""
-    return float(np.exp(np.interp(0.0, np.log(peaks), np.log(SMALL))))
+def _dose_of_one(peaks: np.ndarray, doses: np.ndarray) -> float:
+    """The dose with which the tan is that of one MMD."""
+    logarithms = np.log(np.maximum(peaks, 1e-9))
+    return float(np.exp(np.interp(0.0, logarithms, np.log(doses))))
 
 
 def _peak(curve: np.ndarray) -> float:
@@ -187,8 +178,9 @@ def numbers(dynamics: MeasuredDynamics) -> NDArray[np.float64]:
 
 
 def residuals(dynamics: MeasuredDynamics) -> NDArray[np.float64]:
-    """How far all rows are off, over what they may be."""
-    return np.array([row.off(value) for row, value in zip(ROWS, values(dynamics), strict=True)])
+    """How far `ROWS` are off, over what they may be."""
+    told = values(dynamics)
+    return np.array([row.off(told[row.case]) for row in ROWS])
 
 
 def fitted(start: MeasuredDynamics, starts: int = STARTS) -> MeasuredDynamics:
@@ -215,9 +207,11 @@ def text(dynamics: MeasuredDynamics) -> str:
     ).split()
     lines = [f"{name} = {getattr(dynamics, name):.6g}" for name in names]
     lines += ["", f"{'row':36} {'measured':>8} {'within':>7} {'model':>7} {'off':>6}  source"]
-    for row, value in zip(ROWS, values(dynamics), strict=True):
+    told = values(dynamics)
+    for row in ROWS:
+        value, within = told[row.case], row.high - row.middle
         lines.append(
-            f"{row.name:36} {row.measured:8.3g} {row.within:7.2g} {value:7.3g} "
+            f"{row.case:36} {row.middle:8.3g} {within:7.2g} {value:7.3g} "
             f"{row.off(value):6.2f}  {row.source}"
         )
     return "\n".join(lines)

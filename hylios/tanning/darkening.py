@@ -30,7 +30,7 @@ class ImmediateDarkening:
     persistent_fading : float
         Hours in which the second does. ESTIMATE: it passes into the delayed tan (PMID 458186).
     just_seen : float
-        Natural logarithm of the factor at a threshold: L* is .6 to 1.2 lower in types II to VI,
+        Natural logarithm of the factor at a threshold: L* is .5 to 1.1 lower in types II to VI,
         .3 in type I; measured is .8 (PMID 31206816).
     most : float
         Most darkening in multiples of `just_seen`. ESTIMATE

@@ -2,7 +2,7 @@
 
 The thesis has no redness. This stands beside its kinetics of melanin and thickness (5.4 to 5.29):
 doses in MED leave energy, energy makes signals, signals widen the vessels. ESTIMATE throughout,
-but where a source is named; fitted to `tests/hylios/tanning/erythema_measured.csv`. numpy only.
+but where a source is named; fitted to `hylios/lab/measured_tans.csv`. numpy only.
 """
 
 from dataclasses import dataclass

@@ -88,7 +88,7 @@ def test_what_was_measured_of_tans_is_met():
     off = residuals(PEOPLE)
     assert off.shape == (len(ROWS),) and np.abs(off).max() < 0.8
     for row in ROWS:
-        assert row.name in shown
+        assert row.case in shown
 
 
 def test_a_graded_response_without_a_jump():

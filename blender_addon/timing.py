@@ -46,6 +46,8 @@ def reset(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """Go to the frame with an object's darkest day, and return a sentence on it.
 
+    Skin that burns and does not tan shows its reddest day.
+
     Raises
     ------
     InputError
@@ -53,11 +55,13 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """
     values = settings_of(obj).values()
     curve = curve_of(values)
+    day, what = curve.darkest_day, "darkest"
     if not is_seen(curve):
-        return NOT_SEEN
+        if not curve.burns:
+            return NOT_SEEN
+        day, what = float(curve.days[curve.redness.argmax()]), "reddest"
     if timeline.is_moved_elsewhere(obj):
         return "A driver or a strip of the NLA governs the day of the tan; the frame stays."
-    day = curve.darkest_day
     frame = timeline.frame_of_day(obj, scene, day)
     if frame is None:
         raise InputError(
@@ -67,10 +71,10 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     shown = timeline.shown_day(obj)
     if shown is not None and abs(shown - day) > NEAR:
         return (
-            f"Frame {frame} shows day {shown:.0f}, the nearest to the darkest day, {day:.0f}, in "
+            f"Frame {frame} shows day {shown:.0f}, the nearest to the {what} day, {day:.0f}, in "
             "this scene's frames."
         )
-    return f"Frame {frame} shows the darkest day, day {day:.0f}."
+    return f"Frame {frame} shows the {what} day, day {day:.0f}."
 
 
 def frames(settings: SkinTanSettings, days: Pair, scene: bpy.types.Scene) -> Pair:

@@ -83,6 +83,7 @@ def tan(obj: bpy.types.Object, table: Path) -> None:
     settings.skin = "FILE"
     settings.table_path = str(table.resolve())
     settings.mask_attribute = scene.MASK
+    settings.kinetics, settings.redness = "THESIS", False
     bpy.ops.skin_tan.add_exposure()
     settings.exposures[0].day, settings.exposures[0].dose = 0.0, DOSE
     settings.first_day, settings.last_day = 0.0, DAYS[-1]

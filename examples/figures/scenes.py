@@ -43,6 +43,7 @@ def tan(
         settings = tanned.skin_tan
         settings.skin, settings.table_path = "FILE", str(table.resolve())
         settings.mask.source = scene.MASK
+        settings.kinetics, settings.redness = "THESIS", False
         if sunscreen:
             settings.film = "SUNSCREEN"
             settings.film_mask.source, settings.film_mask.invert = scene.MASK, True

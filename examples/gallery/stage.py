@@ -24,6 +24,7 @@ def tanned(subject: scene.Subject, skin: str) -> bpy.types.Object:
     scene.add_mask(obj.data, subject.cloth)
     settings = obj.skin_tan
     settings.skin, settings.mask_attribute = skin, scene.MASK
+    settings.kinetics, settings.redness = "THESIS", False
     exposure = settings.exposures.add()
     exposure.unit, exposure.multiple = "MMD", shots.SUN
     settings.first_day, settings.last_day = 0.0, shots.LAST_DAY

@@ -64,6 +64,7 @@ def built(shot: Shot) -> bpy.types.Object:
     settings = skin.skin_tan
     settings.skin = "FILE" if shot.table else shot.skin
     settings.table_path, settings.film = shot.table, shot.film
+    settings.kinetics, settings.redness = "THESIS", False
     exposure = settings.exposures.add()
     exposure.unit, exposure.day, exposure.multiple = "MMD", 0.0, TANS[shot.tan].multiple
     settings.first_day, settings.last_day = 0.0, LAST_DAY

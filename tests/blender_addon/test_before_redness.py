@@ -104,3 +104,16 @@ def test_a_table_without_blood_is_said(former_path):
     obj.skin_tan.redness = True
     assert apply(obj) == {"FINISHED"}
     assert not states(obj)[..., 2].any()
+
+
+def test_skin_that_only_burns_shows_its_reddest_day():
+    """Type I does not tan, so a first Apply would show nothing."""
+    bpy.ops.mesh.primitive_plane_add()
+    settings = bpy.context.object.skin_tan
+    settings.skin = "I"
+    assert bpy.ops.skin_tan.apply(show=True) == {"FINISHED"}
+    assert 0.3 < bpy.context.object["tan_day"] < 2.0
+    settings.redness = False
+    bpy.context.scene.frame_set(1)
+    assert bpy.ops.skin_tan.go_to_darkest_day() == {"FINISHED"}
+    assert bpy.context.scene.frame_current == 1

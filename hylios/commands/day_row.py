@@ -19,8 +19,8 @@ from hylios.commands.shell import (
     add_tanning_arguments,
     note_estimates,
     note_redness,
-    number_range,
 )
+from hylios.commands.texts import number_range
 from hylios.errors import InputError, require_range, require_whole, shown
 from hylios.quadrature import skin_quadrature
 from hylios.tanning import KINETICS, LONGEST_HOURS

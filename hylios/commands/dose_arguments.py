@@ -13,9 +13,9 @@ from hylios.commands.shell import (
     chosen_skin,
     chosen_tanning_skin,
     note_estimates,
-    number,
 )
 from hylios.commands.sun_arguments import add_sun_arguments, asked_sun
+from hylios.commands.texts import number
 from hylios.errors import InputError
 from hylios.history import read_schedule
 from hylios.readers.spectrum import read_irradiance, read_transmittance

@@ -11,10 +11,9 @@ from hylios.commands.shell import (
     chosen_skin,
     note_estimates,
     note_omissions,
-    number,
-    wavelength_range,
 )
 from hylios.commands.streams import progress
+from hylios.commands.texts import number, wavelength_range
 from hylios.errors import InputError, shown
 from hylios.quadrature import skin_quadrature
 from hylios.readers.spectrum import read_spectrum

@@ -10,8 +10,8 @@ from hylios.commands.shell import (
     note_estimates,
     print_table,
     require_work,
-    wavelength_range,
 )
+from hylios.commands.texts import wavelength_range
 
 
 def add_to(commands) -> None:

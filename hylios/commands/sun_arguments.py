@@ -6,7 +6,7 @@ from datetime import date, timedelta
 from pathlib import Path
 from typing import Any
 
-from hylios.commands.shell import number
+from hylios.commands.texts import number
 from hylios.errors import InputError, require_range
 from hylios.readers.epw import Weather, epw_of, is_epw
 from hylios.readers.text import lines_of, name_of

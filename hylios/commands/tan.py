@@ -14,10 +14,10 @@ from hylios.commands.shell import (
     add_erythema_argument,
     add_kinetics_argument,
     note_redness,
-    number,
     print_rows,
 )
 from hylios.commands.streams import progress
+from hylios.commands.texts import number
 from hylios.tanning import simulate_in_parts
 
 COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")

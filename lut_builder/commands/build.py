@@ -15,9 +15,9 @@ from hylios.commands.shell import (
     add_work_arguments,
     chosen_skin,
     chosen_tanning_skin,
-    number,
     require_work,
 )
+from hylios.commands.texts import number
 from hylios.errors import InputError, require_whole
 from hylios.quadrature import FEWEST, MOST
 from hylios.readers.text import name_of

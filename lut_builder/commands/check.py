@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.commands.shell import add_work_arguments, named_values, require_work
+from hylios.commands.shell import add_work_arguments, require_work
+from hylios.commands.texts import named_values
 from hylios.errors import InputError, require_whole
 from hylios.readers.text import shown
 from hylios.spectra import Spectra, published_spectra, with_own_spectrum

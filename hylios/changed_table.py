@@ -170,7 +170,12 @@ class ChangedTable(SkinTable):
 
 
 def changed_table(
-    table: SkinTable, biology: Biology, *, rough: bool = False, bands: bool = False
+    table: SkinTable,
+    biology: Biology,
+    *,
+    kinetics: str = "thesis",
+    rough: bool = False,
+    bands: bool = False,
 ) -> SkinTable:
     """A skin's table with another biology; the table itself where nothing changes.
 
@@ -178,6 +183,9 @@ def changed_table(
 
     Parameters
     ----------
+    kinetics : str
+        By which the tans come about that are looked up (`hylios.tanning.KINETICS`): the table is
+        changed most closely where they lie.
     rough : bool
         Whether to solve only tans with the skin's own blood, in half the time. Flushed skin,
         freckles and skin far paler are then changed as those are.
@@ -189,7 +197,7 @@ def changed_table(
     ------
     InputError
         If the table is of an early format, was made with spectra of the user's own, or does not
-        describe its skin.
+        describe its skin, or there is no such kinetics.
     """
     if not isinstance(table.axes, LookAxes):
         raise InputError(
@@ -200,7 +208,7 @@ def changed_table(
             "the table was made with spectra of one's own, which it does not hold; build it anew "
             "with another biology."
         )
-    skin = skin_of(table.provenance)
+    skin = replace(skin_of(table.provenance), kinetics=kinetics)
     specimen = biology.of(skin.specimen)
     if specimen == skin.specimen:
         return table
@@ -226,7 +234,7 @@ def _ratio(one: Specimen, other: Specimen) -> float:
 
 def _correction(moved: ChangedTable, changed: Skin, rough: bool, bands: bool) -> Correction:
     """What takes a table looked up at other places to the changed skin."""
-    sheet = spread_of(changed.dynamics, mmd=changed.mmd, med=changed.med)
+    sheet = spread_of(changed.melanin_kinetics, mmd=changed.mmd, med=changed.med)
     top = float(moved.axes.knots[0][-1])
     high = 1.0 + max(float(np.exp(0.5 * (top - FRECKLE))) - 1.0, LEAST_SPAN)
     tans = TanFit(changed, sheet, high)

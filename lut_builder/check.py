@@ -16,7 +16,7 @@ from hylios.tissue import Model, Stack
 from hylios.transport.simulate import spectrum as walked
 from lut_builder.lighting import Lighting, lighting_of
 from lut_builder.own_spectra import require_own_spectra
-from lut_builder.reachable import reachable_states
+from lut_builder.reachable import by_kinetics, reachable_states
 from lut_builder.request import ANGLE
 
 FINE = np.arange(400.0, 701.0, 5.0)
@@ -99,9 +99,14 @@ def check(
     model = Model(spectra or {}, table.provenance.get("readings", {}))
     require_own_spectra(table.provenance, model)
     random = np.random.default_rng(seed)
-    held = _between_knots(table, reachable_states(skin, 100, seed))
-    tans = random.choice(held, count, replace=len(held) < count)
-    states = np.column_stack([tans, np.exp(random.uniform(0.0, _most_blood(table), count))])
+    tans = [
+        reachable_states(one, 100, seed)
+        for one in by_kinetics(skin)
+        if one.kinetics in table.kinetics
+    ]
+    held = _between_knots(table, np.concatenate(tans))
+    some = random.choice(held, count, replace=len(held) < count)
+    states = np.column_stack([some, np.exp(random.uniform(0.0, _most_blood(table), count))])
     seen = table.plane("total_colour", states)
     specimens = [skin.at(state) for state in states]
     told = progress or (lambda share: None)

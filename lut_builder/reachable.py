@@ -16,7 +16,7 @@ from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin
 from hylios.skin.skin import MOST_BLOOD
 from hylios.table import LookAxes
-from hylios.tanning import Exposures, Spread, spread_of
+from hylios.tanning import KINETICS, Exposures, Spread, spread_of
 from hylios.tissue import Stack
 
 DAYS = 60
@@ -32,15 +32,6 @@ HOURS_BETWEEN = 2.0
 
 MARGIN = 0.05
 """How far the outermost knots lie beyond the states seen, as a share of their span."""
-
-DEPARTURES, OTHERS = (-0.7, 0.4), 24
-"""How far the spread's axis reaches at least, for tans of other kinetics, and schedules of them."""
-
-BEYOND = (1.0, 0.35)
-"""Where knots lie on the way to tans of other kinetics that are farther off."""
-
-MOST_LEAN = 10.0
-"""Most that the second log-ratio may depart from the sheet where the first does by 1."""
 
 LEAST_SPAN = 1e-6
 """Least span of the states along an axis, in the logarithm. A narrower axis comes from rounding and
@@ -88,7 +79,7 @@ def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
 
 
 def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
-    """States (N, 4) of a skin anywhere on a body, from day 0 to a last one.
+    """States (N, 4) of a skin anywhere on a body, from day 0 to a last one, by every kinetics.
 
     Raises
     ------
@@ -96,14 +87,14 @@ def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
         If the last day is out of range.
     """
     last = 24.0 * require_last_day(days)
-    history = history_of_shares(
-        exposures,
-        skin.dynamics,
-        hours=np.append(np.arange(0.0, last, HOURS_BETWEEN), last),
-        mmd=skin.mmd,
-        med=skin.med,
-    )
-    return history.states.reshape(-1, 4)
+    hours = np.append(np.arange(0.0, last, HOURS_BETWEEN), last)
+    parts = [
+        history_of_shares(
+            exposures, one.melanin_kinetics, hours=hours, mmd=skin.mmd, med=skin.med
+        ).states
+        for one in by_kinetics(skin)
+    ]
+    return np.concatenate(parts).reshape(-1, 4)
 
 
 def untanned_state(skin: Skin) -> np.ndarray:
@@ -133,78 +124,75 @@ def choose_axes(skin: Skin, knots: Sequence[int], seed: int = 0) -> LookAxes:
         As `untanned_state`.
     """
     untanned_state(skin)
-    states = reachable_states(skin, SCHEDULES, seed)
-    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
-    axes = LookAxes(sheet, np.zeros(1), 4 * (np.zeros(1),))
-    melanin, thickness, *_ = axes.coordinates(states).T
+    parts = [reachable_states(one, SCHEDULES, seed) for one in by_kinetics(skin)]
+    thesis, measured = (_sheet(one) for one in by_kinetics(skin))
+    axes = LookAxes(thesis, measured, _aside(thesis, parts[0]), 4 * (np.zeros(1),))
+    _, thickness, spread, _ = axes.coordinates(np.concatenate(parts)).T
+    highest = float(np.log(parts[0][:, :3].sum(axis=1)).max())
     counts = [*knots, 1, 1, 1][:4]
-    spread, bend = _spread(skin, sheet, states, counts[2])
     return replace(
         axes,
-        bend=bend,
         knots=(
-            _melanin_knots(skin, axes, float(melanin.max()), counts[0]),
+            _melanin_knots(skin, axes, highest, counts[0]),
             _knots(thickness.min(), thickness.max(), counts[1]),
-            spread,
+            _spread_knots(spread, counts[2]),
             np.linspace(0.0, np.log(MOST_BLOOD), counts[3]),
         ),
     )
 
 
+def by_kinetics(skin: Skin) -> list[Skin]:
+    """The skin with every kinetics, in the order of `KINETICS`: a table serves them all."""
+    return [replace(skin, kinetics=name) for name in KINETICS]
+
+
+def _sheet(skin: Skin) -> Spread:
+    return spread_of(skin.melanin_kinetics, mmd=skin.mmd, med=skin.med)
+
+
 def within(axes: LookAxes, states: np.ndarray) -> LookAxes:
     """Bounded axes over the states (N, 4) of a scene, with the whole table's knots between them.
 
-    The untanned skin is a knot, and the bend is that of the scene's own states.
+    The untanned skin is a knot.
     """
     places = axes.coordinates(states)
     ends = np.minimum(places.min(axis=0), 0.0), np.maximum(places.max(axis=0), 0.0)
     knots = [
         _knots_within(own, low, high) for own, low, high in zip(axes.knots, *ends, strict=True)
     ]
-    bend = _lean(*_departures(axes.sheet, states)) * knots[2]
-    return replace(axes, bend=bend, knots=tuple(knots), bounded=True)
+    return replace(axes, knots=tuple(knots), bounded=True)
 
 
-def _departures(sheet: Spread, states: np.ndarray) -> np.ndarray:
-    """How far the two log-ratios of states (N, 4) depart from the sheet, (2, N)."""
-    melanin, thickness = np.log(states[:, :3].sum(axis=1)), np.log(states[:, 3])
-    ratios = np.log(states[:, :3] / sheet.untanned) @ sheet.directions
-    return (ratios - sheet.log_ratios(melanin, thickness)).T
+def _aside(sheet: Spread, states: np.ndarray) -> np.ndarray:
+    """`LookAxes.aside` of the states (N, 4) of the sheet's kinetics."""
+    logarithms = np.log(states[:, :3] / sheet.untanned)
+    off = logarithms - logarithms.mean(axis=1, keepdims=True)
+    off -= sheet.logarithms(np.log(states[:, :3].sum(axis=1)), np.log(states[:, 3]))
+    if np.abs(off).max() < LEAST_SPAN:
+        return sheet.directions[:, 0]
+    direction = np.linalg.svd(off, full_matrices=False)[2][0]
+    direction = (direction - direction.mean()) / np.linalg.norm(direction - direction.mean())
+    # Rounded, as its last digits depend on where arrays lie in memory.
+    direction = np.round(direction, 9)
+    # Most of what departs lies on its far side.
+    return direction if ((off @ direction) ** 3).sum() <= 0.0 else -direction
 
 
-def _lean(first: np.ndarray, second: np.ndarray) -> float:
-    """How far the second log-ratio (N,) departs from the sheet where the first (N,) does by 1."""
-    if np.ptp(first) < LEAST_SPAN:
-        return 0.0
-    lean = float(np.clip(first @ second / (first @ first), -MOST_LEAN, MOST_LEAN))
-    return round(lean, 6)  # the same wherever in memory the sums were taken
-
-
-def _spread(
-    skin: Skin, sheet: Spread, states: np.ndarray, count: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Knots of the spread, evenly apart on either side of the sheet, and the bend at them.
-
-    Where tans of the measured kinetics lie far off, as in dark skin, the knots are as near as the
-    skin's own states (N, 4), and two more lie out there.
-    """
-    first, second = _departures(sheet, states)
-    if np.ptp(first) < LEAST_SPAN or count == 1:
-        return np.zeros(1), np.zeros(1)
-    others = reachable_states(replace(skin, kinetics="measured"), OTHERS, 0)
-    far, along = _departures(sheet, others)
-    low, high = DEPARTURES
-    if far.min() > low:
-        knots = _knots(min(first.min(), low), max(first.max(), high), count)
-        return knots, _lean(first, second) * knots
-    knots = _knots(first.min(), first.max(), count)
-    bend = _lean(first, second) * knots
-    beyond = np.round((1.0 + MARGIN) * float(far.min()) * np.array(BEYOND), 6)
-    return np.append(beyond, knots), np.append(_lean(far, along) * beyond, bend)
+def _spread_knots(spread: np.ndarray, count: int) -> np.ndarray:
+    """Knots on both sheets and, with three or more, at the farthest state on the side of one."""
+    if spread.max() - spread.min() < LEAST_SPAN or count == 1:
+        return np.zeros(1)
+    if count == 2 or spread.min() > -LEAST_SPAN:
+        return np.linspace(0.0, 1.0, count)
+    return np.append(spread.min(), np.linspace(0.0, 1.0, count - 1))
 
 
 def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np.ndarray:
-    """Knots of melanin, one of them 0; `highest` is the most that sunshine brings about."""
+    """Knots of melanin, one of them 0; `highest` is the most that sunshine brings about.
+
+    By the thesis's kinetics: the measured one reaches further in light skin alone, after more than
+    people bear, to where freckles lie.
+    """
     if count == 1:
         return np.zeros(1)
     tanned = highest + MARGIN

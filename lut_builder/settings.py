@@ -33,8 +33,8 @@ class Settings:
     Attributes
     ----------
     knots : tuple of int
-        Numbers of knots of melanin, thickness, spread and blood; an axis left out has one. Where
-        tans of other kinetics lie far off, the spread has two more.
+        Numbers of knots of melanin, thickness, spread and blood; an axis left out has one. With
+        one of spread, tans are by the thesis's kinetics alone.
     colour_wavelengths : int
         From which colours are made (`hylios.quadrature.skin_quadrature`); 0 for no colours.
     bands : tuple of float

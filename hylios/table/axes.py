@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.tanning.spread import Spread, shares_at
+from hylios.tanning.spread import Spread
 
 STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness", "blood")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
@@ -17,8 +17,8 @@ AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
 LOOK_AXES = ("melanin", "thickness", "spread", "blood")
 """Names of the axes of `LookAxes`, in their order."""
 
-LARGEST_BEND = 30.0
-"""Largest of `LookAxes.bend`."""
+LEAST_APART = 0.01
+"""Least distance of the two sheets, in logarithms of shares, across which a state is told."""
 
 LARGEST_COORDINATE = 30.0
 """Largest coordinate of a knot: a state 1e13 times the untanned one is no skin's."""
@@ -29,6 +29,11 @@ LEAST_STEP = 1e-9
 SLACK = 0.01
 """How far beyond the outermost knots of bounded axes a state may lie, in the logarithm: .09
 CIEDE2000 at most."""
+
+
+OFF = 0.4
+"""How far a layer's melanin of a state that bounded axes hold may be from what they tell of it, in
+the logarithm. Tans are within .3."""
 
 
 class _Grid:
@@ -88,26 +93,37 @@ class LookAxes(_Grid):
     """Four axes of what changes a skin's look: melanin, thickness, spread and blood.
 
     The first, second and last coordinate are the natural logarithms of a state's total melanin,
-    thickness and blood, relative to the untanned skin's. The third is how far melanin is spread
-    over the layers otherwise than on the kinetics' sheet: what the state's first log-ratio is
-    more than there. All are 0 without sun. The second log-ratio departs from the sheet along.
+    thickness and blood, relative to the untanned skin's. The third is how melanin is spread over
+    the layers: 0 on the sheet of the skin's thesis kinetics, 1 on that of its measured kinetics,
+    between them straight in the logarithms of the layers' shares. Below 0 it is how far the shares
+    are from the first sheet on one side, as while the thesis's melanin rises. What lies elsewhere
+    counts as the nearest of these.
 
     Attributes
     ----------
-    sheet : Spread
-        How melanin is spread, given how much of it there is and how thick the skin.
-    bend : (knots of the spread,) array
-        How far the second log-ratio departs from the sheet at the knots of the spread; straight in
-        between, and beyond as at the last.
+    sheet, measured : Spread
+        How melanin is spread, given how much of it there is and how thick the skin, by either
+        kinetics; without sun alike.
+    aside : (3,) array
+        Direction in the logarithms of the layers' shares in which that side lies opposite; of
+        length 1, its sum 0.
     knots : four ascending arrays, each with at least one knot
     bounded : bool
         Whether the table says nothing beyond the outermost knots, as one for one scene alone.
     """
 
     sheet: Spread
-    bend: np.ndarray
+    measured: Spread
+    aside: np.ndarray
     knots: tuple[np.ndarray, ...]
     bounded: bool = False
+
+    @property
+    def tells_measured(self) -> bool:
+        """Whether states of the measured kinetics are told too, or new melanin is none."""
+        return bool(
+            self.bounded or self.knots[2][-1] == 1.0 or self.measured.most.max() < LEAST_APART
+        )
 
     def coordinates(self, states: np.ndarray) -> np.ndarray:
         """Coordinates (..., 4) of states (..., 4), whose blood is the untanned skin's, or (..., 5).
@@ -119,16 +135,24 @@ class LookAxes(_Grid):
         """
         ratios = _logarithms(states, np.append(self.sheet.untanned, [1.0, 1.0]))
         melanin, thickness = np.log(np.asarray(states)[..., :3].sum(axis=-1)), ratios[..., 3]
-        first = ratios[..., :3] @ self.sheet.directions[:, 0]
-        spread = first - self.sheet.log_ratios(melanin, thickness)[..., 0]
+        start, across = self._sheets(melanin, thickness)
+        off = ratios[..., :3] - ratios[..., :3].mean(axis=-1, keepdims=True) - start
+        apart = np.maximum((across**2).sum(axis=-1), LEAST_APART**2)
+        spread = np.clip((off * across).sum(axis=-1) / apart, 0.0, 1.0)
+        back = np.minimum(off @ self.aside, 0.0)
+        left = off - spread[..., None] * across, off - np.multiply.outer(back, self.aside)
+        nearer = [(one**2).sum(axis=-1) for one in left]
+        spread = np.where(nearer[0] <= nearer[1], spread, back)
         return np.stack([melanin, thickness, spread, ratios[..., 4]], axis=-1)
 
     def states(self, coordinates: np.ndarray) -> np.ndarray:
         """States (..., 5) at coordinates (..., 4)."""
         melanin, thickness, spread, blood = np.moveaxis(np.asarray(coordinates, dtype=float), -1, 0)
-        there = self.sheet.log_ratios(melanin, thickness)
-        departure = np.stack([spread, np.interp(spread, self.knots[2], self.bend)], axis=-1)
-        shares = shares_at(self.sheet.untanned, self.sheet.directions, there + departure)
+        start, across = self._sheets(melanin, thickness)
+        moved = np.maximum(spread, 0.0)[..., None] * across
+        moved += np.multiply.outer(np.minimum(spread, 0.0), self.aside)
+        shares = self.sheet.untanned * np.exp(start + moved)
+        shares /= shares.sum(axis=-1, keepdims=True)
         return np.concatenate(
             [
                 np.exp(melanin)[..., None] * shares,
@@ -136,6 +160,11 @@ class LookAxes(_Grid):
             ],
             axis=-1,
         )
+
+    def _sheets(self, melanin: np.ndarray, thickness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Logarithms (..., 3) of layers' shares on the first sheet, and from it to the second."""
+        first, second = (one.logarithms(melanin, thickness) for one in (self.sheet, self.measured))
+        return first, second - first
 
     def hold(self, states: np.ndarray) -> NDArray[np.bool_]:
         """Whether states (..., 4) or (..., 5) lie within the outermost knots, bool (...).
@@ -146,7 +175,9 @@ class LookAxes(_Grid):
             return np.ones(_checked(states).shape[:-1], bool)
         places = self.coordinates(states)
         low, high = (np.array([own[end] for own in self.knots]) for end in (0, -1))
-        return np.all((places >= low - SLACK) & (places <= high + SLACK), axis=-1)
+        inside = np.all((places >= low - SLACK) & (places <= high + SLACK), axis=-1)
+        told = np.log(_checked(states)[..., :3] / self.states(places)[..., :3])
+        return inside & (np.abs(told).max(axis=-1) <= OFF)
 
 
 Axes = StateAxes | LookAxes
@@ -177,13 +208,11 @@ def require_axes(axes: Axes) -> None:
     """Raise InputError unless axes could be a skin's."""
     knots_fit = all(map(_are_knots, axes.knots))
     if isinstance(axes, LookAxes):
-        knots_fit = knots_fit and len(axes.knots) == len(LOOK_AXES)
-        if not (knots_fit and axes.bend.shape == axes.knots[2].shape and _is_sheet(axes.sheet)):
+        if not (knots_fit and len(axes.knots) == len(LOOK_AXES) and _are_sheets(axes)):
             raise InputError(
-                "the table's axes are not a sheet of three positive shares of melanin that sum to "
-                "1, a direction of spread, ascending thicknesses and as many reaches of melanin, "
-                f"ascending knots of {', '.join(LOOK_AXES)} within {LARGEST_COORDINATE:g} of 0, "
-                "and a bend for each of the spread's."
+                "the table's axes are not two sheets of three positive shares of melanin "
+                "that sum to 1, a direction, ascending thicknesses and as many reaches of melanin, "
+                f"and ascending knots of {', '.join(LOOK_AXES)} within {LARGEST_COORDINATE:g} of 0."
             )
     elif not (_is_state(axes.untanned) and _is_basis(axes) and knots_fit):
         raise InputError(
@@ -192,13 +221,26 @@ def require_axes(axes: Axes) -> None:
         )
 
 
+def _are_sheets(axes: LookAxes) -> bool:
+    alike = np.allclose(axes.sheet.untanned, axes.measured.untanned, rtol=0.0, atol=1e-6)
+    return (
+        bool(alike)
+        and _is_sheet(axes.sheet)
+        and _is_sheet(axes.measured)
+        and _is_direction(axes.aside)
+    )
+
+
+def _is_direction(numbers: np.ndarray) -> bool:
+    return bool(abs(numbers @ numbers - 1.0) < 1e-6 and abs(numbers.sum()) < 1e-6)
+
+
 def _is_sheet(sheet: Spread) -> bool:
     first, strips = sheet.directions[:, 0], sheet.thicknesses
     return bool(
         np.all(sheet.untanned > 1e-6)
         and abs(sheet.untanned.sum() - 1.0) < 1e-6
-        and abs(first @ first - 1.0) < 1e-6
-        and abs(first.sum()) < 1e-6
+        and _is_direction(first)
         and _are_knots(strips)
         and sheet.least.shape == sheet.most.shape == strips.shape
         and np.all(sheet.least <= sheet.most)

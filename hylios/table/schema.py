@@ -19,7 +19,6 @@ from hylios.skin.specimen import Specimen
 from hylios.sun.action_spectra import Absorptance
 from hylios.table.axes import (
     AXIS_UNIT,
-    LARGEST_BEND,
     LARGEST_COORDINATE,
     LOOK_AXES,
     STATE_NAMES,
@@ -46,7 +45,7 @@ from hylios.table.kinds import (
     whole,
 )
 from hylios.table.planes import MEANINGS, component_names
-from hylios.tanning import PIGMENTATIONS, MelaninDynamics, Spread
+from hylios.tanning import KINETICS, PIGMENTATIONS, MelaninDynamics, Spread
 from hylios.tanning.spread import TERMS, across
 
 FORMAT = "skin tan table"
@@ -190,8 +189,8 @@ _SHEET = holding(
 )
 _LOOK_AXES = holding(
     {
-        "sheet": _SHEET,
-        "bend": list_of(number(-LARGEST_BEND, LARGEST_BEND), 1, MOST_STATES),
+        "sheets": holding({name: _SHEET for name in KINETICS}),
+        "aside": list_of(number(-1.1, 1.1), 3, 3),
         "bounded": truth,
         "list": list_of(_LOOK_AXIS, len(LOOK_AXES), len(LOOK_AXES)),
     },
@@ -278,8 +277,9 @@ def _axes(content: Mapping[str, Any]) -> Axes:
         raise InputError(
             f"the table's axes are {', '.join(names)}; expected {', '.join(LOOK_AXES)}."
         )
-    bend = np.array(told["bend"], dtype=float)
-    return LookAxes(_sheet(told["sheet"]), bend, knots, told["bounded"])
+    thesis, measured = (_sheet(told["sheets"][name]) for name in KINETICS)
+    aside = np.array(told["aside"], dtype=float)
+    return LookAxes(thesis, measured, aside, knots, told["bounded"])
 
 
 def _sheet(told: Mapping[str, Any]) -> Spread:
@@ -294,20 +294,27 @@ def _sheet(told: Mapping[str, Any]) -> Spread:
     )
 
 
+def _described_sheet(sheet: Spread) -> dict[str, Any]:
+    return {
+        "untanned_melanin": sheet.untanned.tolist(),
+        "direction": sheet.directions[:, 0].tolist(),
+        "thicknesses": sheet.thicknesses.tolist(),
+        "least_melanin": sheet.least.tolist(),
+        "most_melanin": sheet.most.tolist(),
+        "coefficients": sheet.coefficients.tolist(),
+    }
+
+
 def described_axes(axes: Axes) -> tuple[int, dict[str, Any]]:
     """Format version of a table with such axes, and the axes as its header has them."""
     if isinstance(axes, LookAxes):
         return FORMAT_VERSION, {
             "state": list(STATE_NAMES),
-            "sheet": {
-                "untanned_melanin": axes.sheet.untanned.tolist(),
-                "direction": axes.sheet.directions[:, 0].tolist(),
-                "thicknesses": axes.sheet.thicknesses.tolist(),
-                "least_melanin": axes.sheet.least.tolist(),
-                "most_melanin": axes.sheet.most.tolist(),
-                "coefficients": axes.sheet.coefficients.tolist(),
+            "sheets": {
+                name: _described_sheet(sheet)
+                for name, sheet in zip(KINETICS, (axes.sheet, axes.measured), strict=True)
             },
-            "bend": axes.bend.tolist(),
+            "aside": axes.aside.tolist(),
             "bounded": axes.bounded,
             "list": [
                 {"name": name, "unit": AXIS_UNIT, "knots": knots.tolist()}

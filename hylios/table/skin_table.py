@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from hylios.errors import InputError, as_numbers
 from hylios.table.axes import Axes, LookAxes
 from hylios.table.interpolation import between, nodes
+from hylios.tanning import KINETICS
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,16 @@ class SkinTable:
     planes: Mapping[str, NDArray[np.float64]]
     provenance: dict[str, Any]
     interpolation: str = "linear"
+
+    @property
+    def kinetics(self) -> tuple[str, ...]:
+        """Those of `hylios.tanning.KINETICS` by which its states may come about.
+
+        All, but in tables of format 3 and those with a single knot of spread.
+        """
+        if isinstance(self.axes, LookAxes) and self.axes.tells_measured:
+            return tuple(KINETICS)
+        return ("thesis",)
 
     def lookup(
         self, states: ArrayLike, names: Sequence[str] | None = None

@@ -84,6 +84,13 @@ class Spread:
         u, v = np.broadcast_arrays(u, v)
         return powers(u, v, DEGREE) @ self.coefficients
 
+    def logarithms(self, melanin: ArrayLike, thickness: ArrayLike) -> NDArray[np.float64]:
+        """Logarithms (..., 3) of the layers' shares over the untanned ones, but for their mean.
+
+        Parameters as in `log_ratios`.
+        """
+        return self.log_ratios(melanin, thickness) @ self.directions.T
+
     def states(
         self, melanin: ArrayLike, thickness: ArrayLike, blood: ArrayLike = 0.0
     ) -> NDArray[np.float64]:

@@ -53,15 +53,19 @@ def described(table: SkinTable) -> list[str]:
     return [*lines, *_described_axes(table.axes)]
 
 
+UNITS = {"spread": "from kinetics to kinetics"}
+
+
 def _described_axes(axes: LookAxes | StateAxes) -> list[str]:
     """What a table's axes are, line by line."""
     listed = [np.array2string(np.round(knots, 3), max_line_width=10**6) for knots in axes.knots]
     if isinstance(axes, LookAxes):
-        direction = np.round(axes.sheet.directions[:, 0], 3)
+        aside = np.round(axes.aside, 3)
         return [
-            f"spread: {direction} in ln of (basale, spinosum, granulosum) to the untanned",
+            "spread: 0 as by the thesis's kinetics, 1 as by the measured one, below 0 off it "
+            f"along {aside} in ln of (basale, spinosum, granulosum) to the untanned",
             *(
-                f"axis {number}: {name}, in ln to the untanned, knots {knots}"
+                f"axis {number}: {name}, {UNITS.get(name, 'in ln to the untanned')}, knots {knots}"
                 for number, (name, knots) in enumerate(zip(LOOK_AXES, listed, strict=True), start=1)
             ),
             *(["the table says nothing beyond these knots"] if axes.bounded else []),

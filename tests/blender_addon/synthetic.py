@@ -50,7 +50,8 @@ def smooth_table(pigmentation: str = "intermediate") -> SkinTable:
     sheet = spread_of(PIGMENTATIONS[pigmentation], mmd=MMD, med=MED)
     axes = LookAxes(
         sheet=sheet,
-        bend=np.zeros(1),
+        measured=sheet,
+        aside=sheet.directions[:, 0],
         knots=(
             np.concatenate([np.linspace(-6.0, -1.0, 6), np.linspace(-0.8, 1.8, 27)]),
             np.array([0.0, 0.1, 0.25]),

@@ -34,20 +34,20 @@ def drawn(random: np.random.Generator) -> Biology:
     return Biology(**factors, oxygenation=random.uniform(-40.0, 25.0))
 
 
-def tans(table, roots, blood=0.0, part=0.5):
+def tans(table, roots, blood=0.0, part=0.5, kinetics="thesis"):
     """States with so much melanin, as square roots; a part as thick as they get."""
-    skin = skin_of(table.provenance)
-    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    skin = replace(skin_of(table.provenance), kinetics=kinetics)
+    sheet = spread_of(skin.melanin_kinetics, mmd=skin.mmd, med=skin.med)
     melanin = 2.0 * np.log(np.asarray(roots))
     thickness = part * np.interp(melanin, sheet.least, sheet.thicknesses)
     return sheet.states(melanin, thickness, blood)
 
 
-def errors(table, biology: Biology, states: np.ndarray, *, rough: bool = False) -> np.ndarray:
+def errors(table, biology: Biology, states: np.ndarray, **how) -> np.ndarray:
     skin = skin_of(table.provenance)
     changed = replace(skin, specimen=biology.of(skin.specimen))
     solved = colours(changed, states, count=MOST).subsurface
-    told = changed_table(table, biology, rough=rough).plane("subsurface_colour", states)
+    told = changed_table(table, biology, **how).plane("subsurface_colour", states)
     return ciede2000(lab(told), lab(solved))
 
 
@@ -59,6 +59,15 @@ def test_tans_look_as_solved_while_sliders_are_dragged(name):
     for _ in range(3):
         states = tans(table, random.uniform(1.0, most, TANS), part=random.uniform(size=TANS))
         off.append(errors(table, drawn(random), states, rough=True))
+    assert np.mean(off) < 0.05
+    assert np.max(off) < 0.3
+
+
+@pytest.mark.parametrize("name", ["III", "V"])
+def test_tans_by_the_measured_kinetics_look_as_solved(name):
+    table, random = read_table(TABLES / f"{name}.exr"), np.random.default_rng(5)
+    states = tans(table, [1.03, 1.1, 1.2, 1.3], part=0.6, kinetics="measured")
+    off = [errors(table, drawn(random), states, kinetics="measured") for _ in range(2)]
     assert np.mean(off) < 0.05
     assert np.max(off) < 0.3
 

@@ -37,7 +37,7 @@ def test_check_finds_a_table_right_and_a_wrong_one_wrong(small):
     assert honest.differences.shape == (6,)
     assert honest.noise is None and honest.noise_share == 0.0
     assert len(set(np.round(honest.differences, 6))) == 6
-    darker = {name: 0.8 * values for name, values in small.planes.items()}
+    darker = {name: 0.6 * values for name, values in small.planes.items()}
     differences = check(replace(small, planes=darker), count=6, seed=5)
     assert differences.differences.min() > honest.differences.mean()
 

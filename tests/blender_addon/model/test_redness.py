@@ -171,8 +171,8 @@ def test_the_curve_names_several_burns_and_none_of_dark_skin():
 
 
 def test_a_faint_tan_is_gone_and_not_half_gone_later():
-    """On the darkest skin little more than one tanning dose is hardly seen."""
-    faint = replace(SUN, unit="MMD", multiple=1.2)
+    """On the darkest skin three quarters of a tanning dose are hardly seen."""
+    faint = replace(SUN, unit="MMD", multiple=0.75)
     table = catalogue.shipped_path("VI")
     made = curve.curve_of(replace(SETTINGS, table=table, exposures=(faint,)))
     assert made.gone is not None and made.gone < made.half_gone

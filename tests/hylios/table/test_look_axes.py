@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import blender_addon
 from hylios.adding import colours
 from hylios.errors import InputError
 from hylios.lab.colour import difference
-from hylios.skin.phototypes import phototype
+from hylios.skin.phototypes import phototype, skin_type
 from hylios.table import (
     LookAxes,
     SkinTable,
@@ -21,22 +22,25 @@ from hylios.table import (
     to_stored,
 )
 from hylios.table.stored import checksum
-from hylios.tanning import spread_of
+from hylios.tanning import KINETICS, Exposures, spread_of
 
+TABLES = Path(blender_addon.__file__).parent / "tables"
 FORMAT_3 = Path(__file__).parents[2] / "data" / "III_format_3.exr"
 KNOTS = (
     np.array([-6.0, 0.0, 0.8, 1.6]),
     np.array([0.0, 0.2]),
-    np.array([-0.5, 0.0, 1.5]),
+    np.array([-0.4, 0.0, 1.0]),
     np.log([1.0, 3.0, 12.0]),
 )
 
 
 @pytest.fixture(scope="module")
 def axes():
-    skin = phototype("V").skin
-    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
-    return LookAxes(sheet, -1.2 * KNOTS[2], KNOTS)
+    sheets = [
+        spread_of(skin.melanin_kinetics, mmd=skin.mmd, med=skin.med)
+        for skin in (skin_type("V", kinetics=name) for name in KINETICS)
+    ]
+    return LookAxes(*sheets, sheets[0].directions[:, 1], KNOTS)
 
 
 @pytest.fixture(scope="module")
@@ -72,25 +76,31 @@ def test_coordinates_are_logarithms_of_melanin_thickness_and_blood(axes):
     assert np.array_equal(axes.coordinates(some[:, :4])[:, 3], np.zeros(50))
 
 
-def test_the_spread_is_how_far_melanin_lies_off_the_sheet(axes):
-    """By the first log-ratio; the second departs by the bend."""
+def test_the_spread_tells_whose_kinetics_a_state_is_of(axes):
+    """0 on the sheet of the thesis's, 1 on that of the measured; what lies off is between them."""
     melanin, thickness = np.meshgrid(np.linspace(-2.0, 1.5, 6), np.linspace(0.0, 0.2, 4))
-    on_sheet = axes.sheet.states(melanin, thickness)
-    assert axes.coordinates(on_sheet)[..., 2] == pytest.approx(np.zeros((4, 6)), abs=1e-12)
-    off = axes.sheet.directions @ [0.3, -1.2 * 0.3]
-    shares = on_sheet[..., :3] * np.exp(off)
-    shares *= np.exp(melanin)[..., None] / shares.sum(axis=-1, keepdims=True)
-    states = np.concatenate([shares, on_sheet[..., 3:]], axis=-1)
-    places = axes.coordinates(states)
-    assert places[..., 2] == pytest.approx(np.full((4, 6), 0.3), abs=1e-12)
-    assert axes.states(places) == pytest.approx(states, rel=1e-12)
+    thesis, measured = (one.states(melanin, thickness) for one in (axes.sheet, axes.measured))
+    assert axes.coordinates(thesis)[..., 2] == pytest.approx(np.zeros((4, 6)), abs=1e-12)
+    tanned = melanin > 0.1
+    assert axes.coordinates(measured)[tanned, 2] == pytest.approx(np.ones(tanned.sum()), abs=1e-9)
+    assert axes.states(axes.coordinates(measured)) == pytest.approx(measured, rel=0.01)
+    half = np.stack([melanin, thickness, np.full((4, 6), 0.5), np.zeros((4, 6))], axis=-1)[tanned]
+    assert axes.coordinates(axes.states(half)) == pytest.approx(half, abs=1e-9)
+    back = half - [0.0, 0.0, 0.8, 0.0]
+    assert axes.coordinates(axes.states(back)) == pytest.approx(back, abs=1e-9)
+    moved = np.log(axes.states(back) / thesis[tanned])[:, :3]
+    moved -= moved.mean(axis=1, keepdims=True)
+    assert moved == pytest.approx(np.tile(-0.3 * axes.aside, (len(back), 1)), abs=1e-9)
 
 
 def test_states_at_the_knots_have_the_knots_coordinates(axes):
     knots = axes.knot_states()
     assert knots.shape == (4, 2, 3, 3, 5)
     places = np.stack(np.meshgrid(*axes.knots, indexing="ij"), axis=-1)
-    assert axes.coordinates(knots) == pytest.approx(places, abs=1e-9)
+    told = axes.coordinates(knots)
+    assert told[..., [0, 1, 3]] == pytest.approx(places[..., [0, 1, 3]], abs=1e-9)
+    assert told[2:] == pytest.approx(places[2:], abs=1e-9)
+    assert axes.states(told) == pytest.approx(knots, rel=1e-9)
 
 
 @pytest.mark.parametrize("interpolation", ["linear", "pchip"])
@@ -114,9 +124,12 @@ def test_a_table_over_melanin_survives_its_channels_and_says_its_axes(table):
     ]
     again = from_stored(stored)
     assert isinstance(again.axes, LookAxes) and not again.axes.bounded
-    assert np.array_equal(again.axes.bend, table.axes.bend)
-    for name in ("untanned", "directions", "thicknesses", "least", "most", "coefficients"):
-        assert np.array_equal(getattr(again.axes.sheet, name), getattr(table.axes.sheet, name))
+    for own, other in (
+        (again.axes.sheet, table.axes.sheet),
+        (again.axes.measured, table.axes.measured),
+    ):
+        for name in ("untanned", "directions", "thicknesses", "least", "most", "coefficients"):
+            assert np.array_equal(getattr(own, name), getattr(other, name))
     assert all(map(np.array_equal, again.axes.knots, table.axes.knots))
     some = states(20)
     assert again.plane("subsurface_colour", some) == pytest.approx(
@@ -126,9 +139,9 @@ def test_a_table_over_melanin_survives_its_channels_and_says_its_axes(table):
 
 
 def test_bounded_axes_hold_what_lies_within_their_knots(table):
-    inside = table.axes.states(np.array([[0.5, 0.1, 0.3, 1.0], [1.605, 0.2, 1.5, 0.0]]))
+    inside = table.axes.states(np.array([[0.5, 0.1, 0.3, 1.0], [1.605, 0.2, 1.0, 0.0]]))
     outside = table.axes.states(
-        np.array([[1.7, 0.1, 0.3, 1.0], [0.5, 0.1, -0.7, 1.0], [0.5, 0.3, 0.3, 1.0]])
+        np.array([[1.7, 0.1, 0.3, 1.0], [0.5, 0.1, 0.3, 2.6], [0.5, 0.3, 0.3, 1.0]])
     )
     everything = np.concatenate([inside, outside])
     assert table.holds(everything).all()
@@ -153,18 +166,26 @@ def test_states_of_another_shape_are_refused(table):
         (lambda axes: axes.pop("bounded"), "axes has no bounded"),
         (lambda axes: axes["list"].pop(), r"axes.list is .*; expected a list of 4"),
         (lambda axes: axes["list"].reverse(), "axes are blood, spread, thickness, melanin"),
-        (lambda axes: axes["bend"].append(31), "axes.bend.* 31; .*30"),
-        (lambda axes: axes["bend"].pop(), "a bend for each of the spread's"),
-        (lambda axes: axes["sheet"].pop("direction"), "axes.sheet has no direction"),
+        (lambda axes: axes["sheets"].pop("measured"), "axes.sheets has no measured"),
         (
-            lambda axes: axes["sheet"]["coefficients"].pop(),
+            lambda axes: axes["sheets"]["thesis"].pop("direction"),
+            "axes.sheets.thesis has no direction",
+        ),
+        (
+            lambda axes: axes["sheets"]["thesis"]["coefficients"].pop(),
             "coefficients is .*; expected a list of 20",
         ),
-        (lambda axes: axes["sheet"]["most_melanin"].pop(), "axes are not a sheet"),
-        (lambda axes: axes["sheet"]["thicknesses"].reverse(), "axes are not a sheet"),
-        (lambda axes: axes["sheet"].update(direction=[1, 0, 0]), "axes are not a sheet"),
-        (lambda axes: axes["sheet"].update(untanned_melanin=[1, 1, 1]), "axes are not a sheet"),
-        (lambda axes: axes["list"][0].update(knots=[1.0, 0.0]), "axes are not a sheet"),
+        (lambda axes: axes["sheets"]["thesis"]["most_melanin"].pop(), "axes are not two sheets"),
+        (lambda axes: axes["sheets"]["thesis"]["thicknesses"].reverse(), "axes are not two sheets"),
+        (
+            lambda axes: axes["sheets"]["thesis"].update(direction=[1, 0, 0]),
+            "axes are not two sheets",
+        ),
+        (
+            lambda axes: axes["sheets"]["thesis"].update(untanned_melanin=[1, 1, 1]),
+            "axes are not two sheets",
+        ),
+        (lambda axes: axes["list"][0].update(knots=[1.0, 0.0]), "axes are not two sheets"),
     ],
 )
 def test_axes_that_do_not_fit_are_refused(table, change, sentence):
@@ -176,10 +197,23 @@ def test_axes_that_do_not_fit_are_refused(table, change, sentence):
         from_stored(StoredTable(stored.channels, text, checksum(text, stored.channels)))
 
 
+@pytest.mark.parametrize("kinetics", KINETICS)
+@pytest.mark.parametrize("name", ["III", "V", "VI"])
+def test_a_shipped_table_is_near_the_model_by_either_kinetics(name, kinetics):
+    table, skin = read_table(TABLES / f"{name}.exr"), skin_type(name, kinetics=kinetics)
+    assert table.kinetics == tuple(KINETICS)
+    doses = skin.mmd * np.array([[1.0, 0.0, 0.0], [2.5, 0.0, 0.0], [1.0, 2.0, 1.5]])
+    reached = skin.states(Exposures([0, 48, 120], doses), [60.0, 170.0, 400.0, 900.0])
+    some = np.column_stack([reached.reshape(-1, 4), np.tile([1.0, 1.0, 4.0], 4)])
+    seen = table.plane("total_colour", some)
+    off = difference(colours(skin, some, count=10).total, seen)
+    assert off.mean() < 0.08 and off.max() < 0.25
+
+
 def test_a_table_of_format_3_is_read_and_knows_no_blood():
     """The one shipped with the earlier add-on, against the model."""
     old = read_table(FORMAT_3)
-    assert isinstance(old.axes, StateAxes)
+    assert isinstance(old.axes, StateAxes) and old.kinetics == ("thesis",)
     assert {"profile_width", "profile_error", "profile_effective_samples"} <= set(old.planes)
     skin = phototype("III").skin
     melanin = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)

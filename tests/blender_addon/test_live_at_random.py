@@ -29,7 +29,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(8)
+        kind = self.random.integers(10)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -43,6 +43,10 @@ class Artist:
             settings.biology.blood = float(self.random.choice([1.0, 1.5, 2.0]))
         elif kind == 5:
             settings.own_colour = not settings.own_colour
+        elif kind == 6:
+            settings.redness = not settings.redness
+        elif kind == 7:
+            settings.kinetics = str(self.random.choice(["MEASURED", "THESIS"]))
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 

@@ -6,17 +6,20 @@ import pytest
 from artist_skins import plain, wear
 from scenes import add_camera, apply, of_role, render, tan_group, tan_object, white_world
 from state import state
-from synthetic import MED, MMD, UNTANNED_COLOUR, colour_of
+from synthetic import MED, MMD, UNTANNED_COLOUR, colour_of, provenance
 from test_recolour import base_colours
 
+import hylios
 from blender_addon.model.regions import shown, spots
 from blender_addon.props import settings_of
 from blender_addon.scene.nodes import find_input
 from blender_addon.scene.region_nodes import PLACE
 from blender_addon.scene.regions import LIGHTS, ROLES
 from hylios.errors import InputError
+from hylios.skin import whole_thickening
 from hylios.skin.regions import REGIONS
-from hylios.tanning import PIGMENTATIONS, Exposures, simulate
+from hylios.table import skin_of
+from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 
 DOSE, DAY, STRENGTH = 7.0, 8, 0.9
 PLACES = [(share, mask) for share in (0.0, 1.0) for mask in (0.5, 1.0)]
@@ -58,15 +61,25 @@ def expected(obj, squares, day: int) -> tuple[np.ndarray, np.ndarray]:
     shares = np.array([share for share, _, _ in squares])
     exposures = Exposures(hours=np.array([0]), doses=shares[:, None] * DOSE)
     own = PIGMENTATIONS["intermediate"]
-    states = simulate(exposures, own, mmd=MMD, med=MED, hours=24 * 30).states[:, 24 * day]
+    erythema = None
+    if settings_of(obj).redness:
+        erythema = hylios.erythema(skin_of(provenance("intermediate")))
+    states = states_at(exposures, own, times=[24 * day], mmd=MMD, med=MED, erythema=erythema)[:, 0]
+    if erythema is None:
+        states = np.insert(states, 4, 1.0, axis=1)
+    else:
+        states = whole_thickening(states)
     colours, before = [], []
     for (_, mask, name), lit in zip(squares, states, strict=True):
-        start = [*own.steady_state() / np.sum(own.steady_state()), 1.0]
+        start = [*own.steady_state() / np.sum(own.steady_state()), 1.0, 1.0]
         for given, kept in ((lit, colours), (np.array(start), before)):
             u = np.log(given[:3].sum())
             told = shown(settings_of(obj).values(), name, STRENGTH)
-            melanin, blood = told.region.of_state(u, 0.0, STRENGTH * mask)
-            full = np.array([min(melanin, np.exp(1.8)), 0.0, 0.0, given[3], np.exp(blood)])
+            b = np.log(given[4])
+            melanin, blood = told.region.of_state(u, b, STRENGTH * mask)
+            full = np.array(
+                [min(melanin, np.exp(1.8)), 0.0, 0.0, given[3], min(np.exp(blood), 12.0)]
+            )
             kept.append(colour_of(full) * np.power(told.colour, STRENGTH * mask))
     return np.array(colours), np.array(colours) / np.array(before)
 
@@ -81,12 +94,14 @@ def show_emission_of(obj, output: str) -> None:
     tree.links.new(emission.outputs[0], end.inputs["Surface"])
 
 
-def test_colour_and_ratio_are_those_of_the_shifted_state(tmp_path, table_path):
+@pytest.mark.parametrize(("day", "redness"), [(DAY, False), (2, True)])
+def test_colour_and_ratio_are_those_of_the_shifted_state(tmp_path, table_path, day, redness):
     """Of every kind, in the sun and not; Ratio is over the same region before the sun."""
     obj, squares = row_of_kinds(table_path)
+    obj.skin_tan.redness = redness
     assert apply(obj) == {"FINISHED"}
-    bpy.context.scene.frame_set(DAY)
-    colours, ratios = expected(obj, squares, DAY)
+    bpy.context.scene.frame_set(day)
+    colours, ratios = expected(obj, squares, day)
     for output, wanted in (("Colour", colours), ("Ratio", ratios)):
         show_emission_of(obj, output)
         seen = render(tmp_path / "row.exr", width=3 * len(squares), height=3)[1, 1::3]

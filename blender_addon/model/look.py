@@ -33,7 +33,7 @@ COLOUR, WIDTH, NEAR, FAR = "subsurface_colour", "profile_width", "near_share", "
 LEAST_SPAN = 0.1
 """Least v to take for the thickness that skin reaches with so much melanin."""
 
-SEEN, USUAL = (0.0, 0.35, 0.7), 0.15
+SEEN, USUAL = (0.0, 0.4, 0.8), 0.15
 """Thicknesses that are looked up, of 1 that skin reaches with so much melanin, and the one of what
 is told of one thickness alone."""
 

@@ -141,6 +141,9 @@ GERMAN = {
     "gone by day {gone:.0f}": "weg bis Tag {gone:.0f}",
     "Burnt on day {day:.0f}": "Verbrannt an Tag {day:.0f}",
     "Burnt on days {first:.0f} to {last:.0f}": "Verbrannt an Tag {first:.0f} bis {last:.0f}",
+    "Burnt on days {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}": (
+        "Verbrannt Tag {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}"
+    ),
     "Burnt {count} times, days {first:.0f} to {last:.0f}": (
         "{count} mal verbrannt, Tag {first:.0f} bis {last:.0f}"
     ),

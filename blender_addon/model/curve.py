@@ -171,15 +171,13 @@ def _red_words(curve: Curve) -> tuple[str, ...]:
     if not burns:
         return ()
     first, last = burns[0][0], burns[-1][1]
-    if len(burns) > 1:
-        return (
-            Line(
-                "Burnt {count} times, days {first:.0f} to {last:.0f}",
-                count=len(burns),
-                first=first,
-                last=last,
-            ),
-        )
+    if len(burns) == 2:
+        (_, until), (again, _) = burns
+        days = {"first": first, "until": until, "again": again, "last": last}
+        return (Line("Burnt on days {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}", **days),)
+    if len(burns) > 2:
+        days = {"count": len(burns), "first": first, "last": last}
+        return (Line("Burnt {count} times, days {first:.0f} to {last:.0f}", **days),)
     if round(first) == round(last):
         return (Line("Burnt on day {day:.0f}", day=first),)
     return (Line("Burnt on days {first:.0f} to {last:.0f}", first=first, last=last),)

@@ -115,6 +115,8 @@ def test_a_basis_holds_blood_too():
 def test_a_table_without_blood_shows_no_redness(former_path):
     former = catalogue.table(former_path)
     assert not holds_redness(former)
+    axes = replace(TABLE.axes, knots=(*TABLE.axes.knots[:3], np.zeros(1)))
+    assert holds_redness(TABLE) and not holds_redness(replace(TABLE, axes=axes))
     assert response_of(former, redness=True).erythema is None
     assert response_of(TABLE, redness=True).erythema == hylios.erythema(SKIN)
     assert response_of(TABLE).erythema is None
@@ -165,7 +167,11 @@ def test_the_curve_tells_redness_and_tan_apart():
 
 def test_the_curve_names_several_burns_and_none_of_dark_skin():
     again = replace(SETTINGS, exposures=(SUN, replace(SUN, day=20.0, dose=6.0 * SKIN.med)))
-    assert curve.words(curve.curve_of(again))[0].startswith("Burnt 2 times, days 0 to 2")
+    made = curve.curve_of(again)
+    until, last = made.burns[0][1], made.burns[1][1]
+    assert curve.words(made)[0] == f"Burnt on days 0-{until:.0f}, 20-{last:.0f}"
+    often = replace(SETTINGS, exposures=tuple(replace(SUN, day=day) for day in (0.0, 15.0, 40.0)))
+    assert curve.words(curve.curve_of(often))[0].startswith("Burnt 3 times, days 0 to 4")
     dark = replace(SETTINGS, table=catalogue.shipped_path("VI"))
     assert not curve.curve_of(dark).burns
 

@@ -34,6 +34,8 @@ VALUES = {
     "half": 211.0,
     "first": 100.0,
     "count": 20,
+    "until": 120.0,
+    "again": 240.0,
     "gone": 365.0,
     "times": 3.28,
     "length": 0.0123,

@@ -26,6 +26,9 @@ MOST_STRENGTH = 2.0
 USUAL_MELANIN = 0.03
 """Share of the epidermis, of light skin: what is taken of a table that does not tell it."""
 
+STRENGTH_STEP = 0.25
+"""Strengths at which colours are solved: it takes 40 ms, too long for every move of a slider."""
+
 LEAST_CHANGE = 0.003
 """Change of a colour's red, green and blue that is left out."""
 
@@ -77,7 +80,7 @@ class Shown:
 
 
 def shown(settings: TanSettings, kind: str, strength: float) -> Shown:
-    """A kind of region in the skin of settings, for weights up to a strength.
+    """A kind of region in the skin of settings, for weights up to about a strength.
 
     Parameters
     ----------
@@ -91,7 +94,8 @@ def shown(settings: TanSettings, kind: str, strength: float) -> Shown:
     """
     stamp = catalogue.stamp(settings.table)
     how = settings.biology, settings.kinetics
-    return _shown(settings.table, stamp, how, kind, strength)
+    steps = max(round(strength / STRENGTH_STEP), 1)
+    return _shown(settings.table, stamp, how, kind, steps * STRENGTH_STEP)
 
 
 @functools.lru_cache(maxsize=64)

@@ -29,6 +29,8 @@ ROLES = {
     "region_root": math_role("SQRT", "Root of untanned melanin", (200, 900)),
     "region_column": math_role("MULTIPLY_ADD", "Untanned melanin to column", (400, 900)),
     "region_row": Role("ShaderNodeMapRange", "Untanned blood to row", (400, 700), {"clamp": True}),
+    "region_burn": math_role("MINIMUM", "What does not tan does not redden", (0, -250), at_1=1.0),
+    "region_redness": math_role("MULTIPLY", "Redness of regions", (200, -250)),
     "region_light": vector_role("MULTIPLY", "Light of regions", (1100, 600)),
     "region_thick_light": vector_role("MULTIPLY", "Light of regions, thick skin", (1100, 300)),
     "region_untanned_light": vector_role("MULTIPLY", "Light of regions, untanned", (1200, 850)),
@@ -56,18 +58,28 @@ LINKS: tuple[Link, ...] = (
     ("region_column", "Value", "untanned_place", "X"),
     ("regions", "Blood", "region_row", "Value"),
     ("region_row", "Result", "untanned_place", "Y"),
+    ("regions", "Tan", "region_burn", 0),
+    ("state", "Z", "region_redness", 0),
+    ("region_burn", "Value", "region_redness", 1),
+    ("region_redness", "Value", "blood", 0),
     *((image, "Color", role, 0) for role, (image, _) in LIGHTS.items()),
     *(("regions", region_nodes.LIGHT, role, 1) for role in LIGHTS),
     *((role, "Vector", *end) for role, (_, end) in LIGHTS.items()),
 )
 
-OF_LIGHTS: tuple[Link, ...] = tuple((image, "Color", *end) for image, end in LIGHTS.values())
+LATER = (*LIGHTS, "region_burn", "region_redness")
+"""Roles that groups made by earlier versions do not have."""
+
+OF_LATER: tuple[Link, ...] = (
+    ("state", "Z", "blood", 0),
+    *((image, "Color", *end) for image, end in LIGHTS.values()),
+)
 
 REPLACED: tuple[Link, ...] = (
     ("state", "X", "melanin", 0),
     ("melanin", "Value", "more_melanin", 0),
     ("blood", "Value", "look_row", "Value"),
-    *OF_LIGHTS,
+    *OF_LATER,
 )
 """Links of a group without regions whose place others take."""
 
@@ -204,16 +216,16 @@ def _replaced(group: Any, tree: Any, changes: Changes) -> Any:
             group.links.new(node.outputs[name], end)
         changes.at_the_end(partial(_remove_unused, former))
     if is_early:
-        _add_lights(group, changes)
+        _add_later(group, changes)
     return next(nodes.of_role(group, "regions"))
 
 
-def _add_lights(group: Any, changes: Changes) -> None:
-    """Give the nodes of `LIGHTS` to a group whose regions were made before there were any."""
+def _add_later(group: Any, changes: Changes) -> None:
+    """Give the nodes of `LATER` to a group whose regions were made before there were any."""
     changes.may_add_to(group.nodes)
-    for role in LIGHTS:
+    for role in LATER:
         nodes.new_node(group, role, ROLES)
-    _link(group, LIGHTS, OF_LIGHTS)
+    _link(group, LATER, OF_LATER)
 
 
 def _remove_unused(tree: Any) -> None:

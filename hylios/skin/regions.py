@@ -3,7 +3,8 @@
 A region of weight w (its strength times its mask) has the melanin exp(u (1 + (t - 1) min(w, 1)))
 f^w, where u is the tan around it as a logarithm, f the region's `melanin` and t its `tan`; without
 melanin (f = 0) f^w is 1 - w. Blood, and what the tissue below reflects, are changed by their
-factors to the power w. Regions that lie over each other multiply. numpy only.
+factors to the power w; the sun's redness is that around the region times its tan's share t, at most
+all: what does not tan does not redden. Regions that lie over each other multiply. numpy only.
 
 `sites.csv` has what `hylios.lab.site_fits` fitted to people, `regions.csv` the rest and the marks.
 """
@@ -104,7 +105,8 @@ class Region:
         """
         u, b, weight = (np.asarray(values, float) for values in (u, b, weight))
         melanin = np.exp(self.own_tan(u, weight)) * self._more_melanin(weight)
-        return melanin, b + weight * np.log(self.blood)
+        redness = b * np.minimum(self.own_tan(1.0, weight), 1.0)
+        return melanin, redness + weight * np.log(self.blood)
 
     def own_tan(self, u: ArrayLike, weight: ArrayLike = 1.0) -> NDArray[np.float64]:
         """Logarithm of the melanin that sun has added, where it is u around the region."""

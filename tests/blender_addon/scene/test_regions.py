@@ -14,7 +14,7 @@ from blender_addon.model.regions import shown, spots
 from blender_addon.props import settings_of
 from blender_addon.scene.nodes import find_input
 from blender_addon.scene.region_nodes import PLACE
-from blender_addon.scene.regions import LIGHTS, ROLES
+from blender_addon.scene.regions import LATER, OF_LATER, ROLES
 from hylios.errors import InputError
 from hylios.skin import whole_thickening
 from hylios.skin.regions import REGIONS
@@ -228,23 +228,25 @@ def test_a_second_apply_keeps_what_was_edited_and_another_strength_does_not(tabl
     assert len(of_role(obj, "region_melanin").inputs[1].links) == 1
 
 
-def test_regions_of_a_file_without_their_light_get_it(tmp_path, table_path):
-    """Those that an earlier version made, with what an artist put between."""
+def test_regions_of_an_earlier_version_get_light_and_redness(tmp_path, table_path):
+    """On the day after a burn: palms and moles have not reddened."""
     obj, squares = row_of_kinds(table_path)
+    obj.skin_tan.redness = True
     apply(obj)
     group = tan_group(obj)
     tree = of_role(obj, "regions").node_tree
     tree.interface.remove(tree.interface.items_tree["Light"])
     tree["skin_tan_regions"] = "earlier"
-    for role, (image, (target, socket)) in LIGHTS.items():
+    for role in LATER:
         group.nodes.remove(of_role(obj, role))
+    for image, output, target, socket in OF_LATER:
         end = find_input(of_role(obj, target), socket)
-        group.links.new(of_role(obj, image).outputs["Color"], end)
+        group.links.new(of_role(obj, image).outputs[output], end)
     apply(obj)
-    bpy.context.scene.frame_set(DAY)
+    bpy.context.scene.frame_set(1)
     show_emission_of(obj, "Colour")
     seen = render(tmp_path / "row.exr", width=3 * len(squares), height=3)[1, 1::3]
-    assert seen == pytest.approx(expected(obj, squares, DAY)[0], abs=0.005)
+    assert seen == pytest.approx(expected(obj, squares, 1)[0], abs=0.005)
 
 
 def test_a_copy_of_the_object_gets_regions_of_its_own(table_path):

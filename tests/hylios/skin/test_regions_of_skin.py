@@ -80,6 +80,17 @@ def test_a_specimen_has_the_melanin_and_blood_of_the_state(name):
     assert own.papillary_blood == pytest.approx(np.exp(blood) * specimen.papillary_blood)
 
 
+def test_a_palm_does_not_redden_in_the_sun_and_a_cheek_does():
+    """Half a palm does by half."""
+    for name, weight, share in (("palms", 1.0, 0.0), ("palms", 0.5, 0.5), ("cheeks", 1.0, 1.0)):
+        told = region(name, LIGHT)
+        _, before = told.of_state(0.0, 0.0, weight)
+        _, burnt = told.of_state(0.3, 1.2, weight)
+        assert burnt - before == pytest.approx(share * 1.2)
+    _, freckle = region("freckles", LIGHT).of_state(0.3, 1.2)
+    assert freckle == pytest.approx(1.2)
+
+
 @pytest.mark.parametrize("name", ["moles", "palms", "vitiligo"])
 def test_what_does_not_tan_keeps_its_melanin(name):
     melanin, _ = region(name, LIGHT).of_state([0.0, 1.8], 0.0, [1.0, 1.0])

@@ -224,7 +224,9 @@ def test_apply_in_a_view_shows_the_new_skin_in_it(tmp_path, bodies):
 
 def read_bare(name: str) -> float:
     table = read_table(shipped_path(name))
-    return float(table.plane("band_reflectance", np.array([[*table.axes.untanned, 1.0]]))[0, 0])
+    return float(
+        table.plane("band_reflectance", np.array([[*table.axes.sheet.untanned, 1.0]]))[0, 0]
+    )
 
 
 def test_a_new_object_is_in_the_view(bodies, table_path):
@@ -327,7 +329,7 @@ def test_recoloured_materials_show_the_view_in_place_of_paint(tmp_path, table, d
     add_camera((count / 2, 0.5, 5.0), count)
     let_out = base_colours(tmp_path, count)[:3] / PAINTED
     switch("NM1650")
-    states = np.array([[*table.axes.untanned, 1.0, 1.0]])
+    states = np.array([[*table.axes.sheet.untanned, 1.0, 1.0]])
     total = table.plane("band_reflectance", states)[0, 2]
     surface = 1.0 - float(let_through(ROUGHNESS, 8.0))
     expected = (total - surface) * np.array(TINTS["NM1650"])

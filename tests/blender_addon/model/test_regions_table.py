@@ -45,7 +45,7 @@ def test_kinds_are_the_regions_and_files_hold_them_by_the_numbers_of_before():
 
 
 TYPES = ("I", "II", "III", "IV", "V", "VI")
-MOST = {("freckles", "measured"): 0.8, ("moles", "measured"): 0.7}
+MOST = {("freckles", "measured"): 0.6}
 """What is off by more than .5: where more melanin lies in proportion, and by a tan, differs."""
 
 
@@ -69,7 +69,7 @@ def test_a_table_shows_regions_as_they_are_solved_by_themselves(kind):
 @pytest.mark.parametrize("kinetics", ["thesis", "measured"])
 @pytest.mark.parametrize("kind", REGIONS)
 def test_so_it_does_for_all_types(kind, kinetics):
-    """But for freckles and moles by the measured kinetics (.73 and .64)."""
+    """But for freckles by the measured kinetics (.55): type II's leave the table, VI has none."""
     most = MOST.get((kind, kinetics), 0.5)
     assert np.mean([off(name, kind, kinetics) for name in TYPES]) < most
 

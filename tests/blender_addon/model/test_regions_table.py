@@ -8,7 +8,6 @@ import pytest
 from blender_addon.model import catalogue
 from blender_addon.model.regions import Spots, is_estimate, shown, spots
 from blender_addon.model.settings import TanSettings
-from blender_addon.props.region import KINDS
 from hylios.colour_difference import ciede2000, lab
 from hylios.region_colour import colour_factor, compared, subsurface_colours
 from hylios.skin.biology import Biology
@@ -33,12 +32,7 @@ def test_spots_cover_the_share_that_balls_fill():
     )
 
 
-def test_kinds_are_the_regions_and_files_hold_them_by_the_numbers_of_before():
-    assert {name.lower() for name, *_ in KINDS} == set(REGIONS)
-    numbers = {name: number for name, number, *_ in KINDS}
-    former = "FRECKLES MOLES PALMS LIPS FLUSH VITILIGO".split()
-    assert [numbers[name] for name in former] == list(range(6))
-    assert len(set(numbers.values())) == len(KINDS)
+def test_spots_and_estimates_are_those_of_the_regions():
     assert set(spots()) == {"freckles", "lentigines", "moles"}
     marked = {name for name in REGIONS if is_estimate(name)}
     assert marked == {"freckles", "lentigines", "moles", "palms", "lips"}

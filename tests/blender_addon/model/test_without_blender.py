@@ -13,7 +13,7 @@ for name in ("bpy", "bpy_extras", "mathutils"):
 
 import pytest
 
-sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", *sys.argv[1:]]))
+sys.exit(pytest.main(["-q", "-m", "not slow", "-p", "no:cacheprovider", *sys.argv[1:]]))
 """
 
 

@@ -72,7 +72,8 @@ def mask_for_brush(
             return kind, f"{_legend(mask, words)}: painting {source.name!r}."
         return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
     mask_colours.activate(mesh, source.name)
-    return "COLOUR", f"{_legend(mask, words)}: painting {source.name!r}."
+    also = _also_read(obj, source.name)
+    return "COLOUR", f"{_legend(mask, words)}: painting {source.name!r}.{also}"
 
 
 def from_clothes(
@@ -177,6 +178,13 @@ def _set(settings: Any, name: str) -> None:
     """Have a mask read a colour attribute that holds shares."""
     settings.invert, settings.strength, settings.channel = False, 1.0, "MEAN"
     settings.source = name
+
+
+def _also_read(obj: bpy.types.Object, name: str) -> str:
+    """A sentence where several times in the sun have one mask of their own."""
+    exposures = settings_of(obj).exposures
+    readers = [item for item in exposures if item.own_mask and item.mask.source == name]
+    return f" {len(readers)} times in the sun read it." if len(readers) > 1 else ""
 
 
 def _activate_image(mesh: bpy.types.Mesh, mask: masks.Mask) -> None:

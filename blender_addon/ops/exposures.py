@@ -10,6 +10,9 @@ from ..props.copying import copy_values
 from .active import active_settings, can_edit
 from .lists import SELECTED, after_removing, index_of
 
+OF_ONE_TIME = ("own_mask", "mask")
+"""What a time in the sun does not take from the one before: a brush on it would paint on both."""
+
 
 def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
     """Whether there is a time in the sun; a poll of `cls` says so where there is none."""
@@ -52,13 +55,15 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
         latest = None if last is None else list(settings.exposures).index(last)
         added = settings.exposures.add()
         if latest is not None:
-            copy_values(settings.exposures[latest], added)
+            copy_values(settings.exposures[latest], added, leave=OF_ONE_TIME)
         added.name, added.enabled = self.name, True
         added.day = self.day if self.properties.is_property_set("day") else day
         if self.properties.is_property_set("dose"):
             added.unit, added.dose = "SED", self.dose
         settings.exposure_index = len(settings.exposures) - 1
         like = "" if latest is None else ", with what is set of the last one"
+        if latest is not None and settings.exposures[latest].own_mask:
+            like += " but its own mask"
         self.report({"INFO"}, f"Added a time in the sun on day {added.day:g}{like}.")
         return {"FINISHED"}
 

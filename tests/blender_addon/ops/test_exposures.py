@@ -26,6 +26,16 @@ def test_the_next_is_a_day_after_the_last_and_like_it(body):
     assert (boat.name, boat.day, boat.unit, boat.dose) == ("Boat", 9.0, "SED", 4.0)
 
 
+def test_the_next_has_no_own_mask_so_a_brush_leaves_that_of_the_last(body):
+    body.skin_tan.exposures[0].name = "Shirt"
+    bpy.ops.skin_tan.paint_mask(target="EXPOSURE", enter=False)
+    bpy.ops.skin_tan.add_exposure()
+    assert not body.skin_tan.exposures[1].own_mask
+    bpy.ops.skin_tan.paint_mask(target="EXPOSURE", enter=False)
+    first, second = (exposure.mask.source for exposure in body.skin_tan.exposures)
+    assert first and second and first != second
+
+
 def test_duplicate_move_and_remove(body):
     for day in (3.0, 5.0):
         bpy.ops.skin_tan.add_exposure(day=day)

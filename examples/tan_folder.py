@@ -36,26 +36,39 @@ def tan_folder(arguments: argparse.Namespace) -> None:
     from tqdm import tqdm
 
     import blender_addon
+    from blender_addon.model.catalogue import shipped_path
     from blender_addon.model.exposures_csv import read_exposures
+    from blender_addon.model.settings import check_days
 
     files = sorted(arguments.folder.glob("*.blend"))
     if not files:
         raise InputError(f"{arguments.folder} holds no .blend file.")
+    if arguments.out.resolve() == arguments.folder.resolve():
+        raise InputError(f"--out is {arguments.out}, the folder of the originals; give another.")
+    shipped_path(arguments.skin)
+    check_days(0.0, arguments.days)
     exposures = read_exposures(arguments.schedule).exposures if arguments.schedule else ()
     arguments.out.mkdir(parents=True, exist_ok=True)
     blender_addon.register()
-    unread: list[str] = []
+    failed: list[str] = []
     for file in tqdm(files, "tan", unit="file"):
         target = arguments.out / file.name
+        if target.exists() and target.samefile(file):
+            raise InputError(f"{target} is the original itself; give --out another folder.")
         if target.exists() and not arguments.force:
             continue
         try:
             bpy.ops.wm.open_mainfile(filepath=str(file), load_ui=False)
         except RuntimeError as error:
-            unread.append(file.name)
+            failed.append(file.name)
             tqdm.write(f"{file.name} cannot be read: {' '.join(str(error).split())}")
             continue
-        lines = list(tanned(arguments, exposures))
+        try:
+            lines = list(tanned(arguments, exposures))
+        except InputError as error:
+            failed.append(file.name)
+            tqdm.write(f"{file.name}: {error}")
+            continue
         if not lines:
             tqdm.write(f"{file.name}: no mesh is called {arguments.objects}; no copy is made.")
             continue
@@ -64,12 +77,18 @@ def tan_folder(arguments: argparse.Namespace) -> None:
         unfinished = target.with_suffix(".unfinished.blend")
         bpy.ops.wm.save_as_mainfile(filepath=str(unfinished.resolve()), copy=True)
         os.replace(unfinished, target)
-    if unread:
-        raise InputError(f"Files that cannot be read: {', '.join(unread)}; all others are done.")
+    if failed:
+        raise InputError(f"Files without a copy: {', '.join(failed)}; all others are done.")
 
 
 def tanned(arguments: argparse.Namespace, exposures: tuple[dict, ...]) -> Iterator[str]:
-    """Tan the meshes of the open file; a line on each."""
+    """Tan the meshes of the open file; a line on each.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be tanned.
+    """
     import bpy
 
     from blender_addon.apply import apply_tan
@@ -89,7 +108,9 @@ def tanned(arguments: argparse.Namespace, exposures: tuple[dict, ...]) -> Iterat
         try:
             yield apply_tan(body, scene)
         except InputError as error:
-            yield f"{body.name} stays as it is: {error}"
+            raise InputError(
+                f"{body.name} cannot be tanned, so no copy is made: {error}"
+            ) from error
 
 
 def main() -> int:

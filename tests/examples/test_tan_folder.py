@@ -47,6 +47,32 @@ def test_one_that_cannot_be_read_stops_no_other(folder):
     assert [path.name for path in out.iterdir()] == ["nora.blend"]
 
 
+def test_originals_are_never_written_over(folder):
+    original = folder / "in" / "nora.blend"
+    before = original.read_bytes()
+    done = run(folder / "in", "--out", folder / "in" / ".." / "in", "--force")
+    assert done.returncode == 2 and "the folder of the originals" in done.stderr
+    assert original.read_bytes() == before and "Traceback" not in done.stderr
+
+
+def test_a_character_that_cannot_be_tanned_has_no_copy(folder):
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "in" / "nora.blend"))
+    bpy.data.objects["Body of Nora"]["tan_day"] = "a note"
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "in" / "nora.blend"))
+    done = run(folder / "in", "--out", folder / "out")
+    assert done.returncode == 2 and "nora.blend; all others are done" in done.stderr
+    assert not list((folder / "out").iterdir()) and "holds no number" in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "said"), [("--skin", "VII", "'VII'"), ("--days", "-3", "last day is -3")]
+)
+def test_a_wrong_value_is_a_sentence(folder, option, value, said):
+    done = run(folder / "in", "--out", folder / "out", option, value)
+    assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+    assert not (folder / "out").exists()
+
+
 def test_no_copy_is_made_where_nothing_tans(folder):
     done = run(folder / "in", "--out", folder / "out", "--objects", "Nobody*")
     assert done.returncode == 0 and not list((folder / "out").iterdir())

@@ -1,5 +1,6 @@
 """What an artist sets on an object."""
 
+from .baked import baked
 from .biology import SkinTanBiology
 from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask
@@ -25,19 +26,15 @@ __all__ = [
     "table_file",
 ]
 
-CLASSES = (
-    *map(
-        overridable,
-        (
-            SkinTanBiology,
-            SkinTanMask,
-            SkinTanFilmMask,
-            SkinTanExposure,
-            SkinTanMaterial,
-            SkinTanRegionMask,
-            SkinTanRegion,
-            SkinTanSettings,
-        ),
-    ),
-    SkinTanScene,
+_OF_OBJECTS = (
+    SkinTanBiology,
+    SkinTanMask,
+    SkinTanFilmMask,
+    SkinTanExposure,
+    SkinTanMaterial,
+    SkinTanRegionMask,
+    SkinTanRegion,
+    SkinTanSettings,
 )
+
+CLASSES = (*(overridable(baked(group)) for group in _OF_OBJECTS), baked(SkinTanScene))

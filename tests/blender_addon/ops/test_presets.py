@@ -7,6 +7,8 @@ import pytest
 from scenes import tan_object
 
 import blender_addon
+from blender_addon.model import catalogue
+from blender_addon.model.summary import of_blisters
 
 SHIPPED = sorted(Path(blender_addon.__file__).parent.glob("presets/skin_tan/schedule/*.py"))
 
@@ -64,6 +66,15 @@ def test_every_preset_that_comes_with_the_add_on_tans(table_path, path):
     execute(path, "SKIN_TAN_PT_schedule_presets")
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     assert all(exposure.name for exposure in obj.skin_tan.exposures)
+
+
+@pytest.mark.parametrize("skin", catalogue.TYPES)
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_no_preset_blisters_any_type_of_skin(table_path, path, skin):
+    settings = tan_object(table_path).skin_tan
+    execute(path, "SKIN_TAN_PT_schedule_presets")
+    settings.skin = skin
+    assert of_blisters(settings.values()) == ()
 
 
 def test_blender_lists_them():

@@ -9,4 +9,4 @@ item = settings.exposures.add()
 item.name = "Beach"
 item.day = 0.0
 item.unit = "MMD"
-item.multiple = 4.0
+item.multiple = 2.0

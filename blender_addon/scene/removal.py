@@ -58,7 +58,7 @@ def take_off(obj: bpy.types.Object, changes: Changes) -> list[str]:
         changes.set(settings, "material", None)
     changes.set(settings, "group", None)
     vertex_groups.remove_own(obj, changes)
-    several.remove_attributes(obj, group, changes)
+    several.remove_attributes(obj, None, changes)
     if own is not None and MADE in own:
         changes.at_the_end(partial(_remove_unused, [own]))
     changes.at_the_end(partial(_remove_groups, [group, *groups]))

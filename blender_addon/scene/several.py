@@ -117,7 +117,7 @@ def show(
         remove_attributes(obj, group, changes)
     else:
         former = [] if node is None else _names(node.node_tree)
-        names = _written(obj, former, source, changes)
+        names = _written(obj, group, former, source, changes)
         tree = several_nodes.on_mesh(name, basis, names)
     changes.may_add_to(group.nodes)
     changes.may_relink(group)
@@ -184,24 +184,35 @@ def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes)
 def remove_attributes(
     obj: bpy.types.Object, group: bpy.types.NodeTree | None, changes: Changes
 ) -> None:
-    """Remove what was made for several masks on an object's mesh, and no other object shows."""
+    """Remove what was made for several masks on an object's mesh, and no other object shows.
+
+    Parameters
+    ----------
+    group : NodeTree or None
+        That the object will have; until `Skin.attach` it may have one that others show too.
+    """
     mesh = cast(bpy.types.Mesh, obj.data)
     own = _own(mesh)
     if not own:
         return
-    going = [name for name in own if name not in _of_others(obj)]
+    others = _of_others(obj, group)
+    going = [name for name in own if name not in others]
     for name in going:
         changes.at_the_end(partial(remove_attribute, mesh, name))
     _remember(mesh, [name for name in own if name not in going], changes)
 
 
 def _written(
-    obj: bpy.types.Object, former: Collection[str], sampled: OnMesh, changes: Changes
+    obj: bpy.types.Object,
+    group: bpy.types.NodeTree,
+    former: Collection[str],
+    sampled: OnMesh,
+    changes: Changes,
 ) -> list[str]:
     """Write coefficients, and last the share; the names of the attributes."""
     mesh = cast(bpy.types.Mesh, obj.data)
     active = mesh.attributes.active_color_name, mesh.attributes.default_color_name
-    own, others = _own(mesh), _of_others(obj)
+    own, others = _own(mesh), _of_others(obj, group)
     free = [name for name in former if name in own and name not in others]
     count = sampled.coefficients.shape[1] // VALUES_OF_ATTRIBUTE
     names = []
@@ -261,9 +272,8 @@ def _remember(mesh: bpy.types.Mesh, names: Sequence[str], changes: Changes) -> N
         del mesh[ATTRIBUTES_KEY]
 
 
-def _of_others(obj: bpy.types.Object) -> set[str]:
-    """Attributes that other objects of the same mesh show by groups of their own."""
-    own = remembered(obj).group
+def _of_others(obj: bpy.types.Object, own: bpy.types.NodeTree | None) -> set[str]:
+    """Attributes that other objects of the same mesh show by groups other than the object's own."""
     names: set[str] = set()
     for other in bpy.data.objects:
         if other == obj or other.data != obj.data:

@@ -161,3 +161,28 @@ def test_more_than_eight_masks_are_refused(body):
         exposure.own_mask, exposure.mask.source = True, name
     with pytest.raises(RuntimeError, match="exposures have 13 masks; allowed are 1 to 8"):
         apply(body)
+
+
+@pytest.mark.parametrize("edit", ["dose", "one mask"])
+def test_a_linked_duplicate_s_apply_leaves_what_the_first_reads(body, edit):
+    apply(body)
+    read = {name: values_of(body, name) for name in own_attributes(body)}
+    twin = body.copy()
+    bpy.context.collection.objects.link(twin)
+    if edit == "dose":
+        twin.skin_tan.exposures[0].dose = 0.0
+    else:
+        for exposure in twin.skin_tan.exposures:
+            exposure.own_mask = False
+    apply(twin)
+    assert {name: values_of(body, name) for name in read} == read
+    for obj in (twin, body):
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.skin_tan.remove()
+    assert not own_attributes(body)
+
+
+def values_of(obj, name: str) -> list:
+    attribute = obj.data.attributes[name]
+    end = "value" if attribute.data_type == "FLOAT" else "color"
+    return [tuple(np.ravel(getattr(item, end))) for item in attribute.data]

@@ -1,7 +1,7 @@
 """The buttons that give objects a tan."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty
@@ -12,8 +12,8 @@ from .. import timing
 from ..apply import apply_tan, tannable
 from ..model.fitting import nearest_type
 from ..own_colour import painted_skin
-from ..props import settings_of
-from ..props.copying import copy_values
+from ..props import SkinTanSettings, settings_of
+from ..props.copying import copy_values, put_values, values_in
 from .active import (
     active_mesh,
     active_object,
@@ -102,11 +102,7 @@ class SKIN_TAN_OT_copy_to_selected(bpy.types.Operator):  # noqa: N801
         source = active_mesh(context)
         settings = active_settings(context)
         others = [obj for obj in selected_meshes(context) if obj != source]
-        for other in others:
-            copy_values(settings, settings_of(other), leave=OF_THE_OBJECT)
-            for name, number in settings.response_numbers().items():
-                setattr(settings_of(other), name, number)
-        done = _apply(self, others, current_scene(context))
+        done = _apply(self, others, current_scene(context), settings)
         return {"FINISHED"} if done else {"CANCELLED"}
 
 
@@ -148,14 +144,40 @@ def _exposed(obj: bpy.types.Object) -> Iterator[None]:
         raise
 
 
+@contextmanager
+def _set_as(obj: bpy.types.Object, settings: SkinTanSettings) -> Iterator[None]:
+    """Give an object the settings of another, unless an exception follows."""
+    own = settings_of(obj)
+    former = values_in(own, leave=OF_THE_OBJECT)
+    try:
+        copy_values(settings, own, leave=OF_THE_OBJECT)
+        for name, number in settings.response_numbers().items():
+            setattr(own, name, number)
+        yield
+    except BaseException:
+        put_values(own, former)
+        raise
+
+
 def _apply(
-    operator: bpy.types.Operator, objects: list[bpy.types.Object], scene: bpy.types.Scene
+    operator: bpy.types.Operator,
+    objects: list[bpy.types.Object],
+    scene: bpy.types.Scene,
+    settings: SkinTanSettings | None = None,
 ) -> list[bpy.types.Object]:
-    """Apply the tans of objects, report what was done, and return those that have one."""
+    """Apply the tans of objects, report what was done, and return those that have one.
+
+    Parameters
+    ----------
+    settings : SkinTanSettings, optional
+        In place of their own.
+    """
     done = []
     for obj in objects:
         try:
-            apply_tan(tannable(obj), scene)
+            tannable(obj)
+            with _set_as(obj, settings) if settings else nullcontext():
+                apply_tan(obj, scene)
         except InputError as error:
             operator.report({"WARNING"}, f"{obj.name}: {error}")
         else:

@@ -4,6 +4,8 @@ import bpy
 import pytest
 from scenes import apply, look, tan_object
 
+from blender_addon.props.copying import values_in
+
 
 @pytest.fixture
 def pair(table_path):
@@ -81,3 +83,23 @@ def test_copy_to_selected(pair):
     second.skin_tan.exposures[0].dose = 2.0
     apply(second)
     assert look(first) != look(second)
+
+
+@pytest.mark.parametrize("tanned", [False, True])
+def test_what_cannot_be_copied_leaves_the_other_as_it_was(pair, tanned):
+    first, second = pair
+    first.data.attributes.new("shirt", "FLOAT", "POINT")
+    first.skin_tan.mask.source = "shirt"
+    own = second.skin_tan
+    own.first_frame, own.timing, own.exposures[0].name = 40, "SCENE", "Boat"
+    own.exposures.add().unit = "MMD"
+    own.biology.blood = 1.2
+    if tanned:
+        apply(second)
+    apply(first)
+    before = values_in(own)
+    assert bpy.ops.skin_tan.copy_to_selected() == {"CANCELLED"}
+    assert values_in(own) == before
+    first.skin_tan.mask.source = ""
+    assert bpy.ops.skin_tan.copy_to_selected() == {"FINISHED"}
+    assert [exposure.name for exposure in own.exposures] == [""] and own.timing == "SCENE"

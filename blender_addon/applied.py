@@ -8,7 +8,7 @@ from .props import SkinTanSettings, settings_of
 from .scene.changes import Changes
 
 NOTES = frozenset(
-    "rna_type name group material keyed applied undone exposure_index region_index live "
+    "rna_type name group material keyed own_day applied undone exposure_index region_index live "
     "kinetics_kept redness_kept".split()
 )
 """Properties of an object that do not change its look."""

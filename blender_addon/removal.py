@@ -39,7 +39,8 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
         remove_own(obj, changes)
         # Keys of the artist's own stay; a file from before Apply noted its keys has only ours.
         if not keep_timing and (any(settings.keyed) or not settings.applied):
-            said += remove_day(obj, changes)
+            said += remove_day(obj, changes, settings.own_day)
             changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))
+            changes.set(settings, "own_day", "")
         changes.set(settings, "applied", "")
     return " ".join([f"Removed the tan of {obj.name!r}.", *said])

@@ -92,11 +92,18 @@ def key(
     if settings.timing == OWN:
         timeline.set_first_day(obj, days[0], changes)
         return []
+    said: list[str] = []
     keyed = tuple(settings.keyed) if any(settings.keyed) else (*days, *at)
     if timeline.has_own_keys(obj, keyed):
         return ["The keys of the day are your own and stay as they are (Reset Timing sets them)."]
+    own = "" if any(settings.keyed) else timeline.own_day(obj)
+    if own:
+        changes.set(settings, "own_day", own)
+        said = [
+            f"The property {timeline.DAY_PROPERTY!r}, which you had, is the day of the tan now."
+        ]
     _key(obj, scene, days, at, changes)
-    return []
+    return said
 
 
 def _key(

@@ -28,7 +28,7 @@ FIRST_AMOUNT = 2.0
 """Tanning doses of the exposure that an object without any is given: it burns light skin and tans
 all but the lightest, and blisters none."""
 
-OF_THE_OBJECT = ("group", "material", "materials", "keyed", "applied", "undone")
+OF_THE_OBJECT = ("group", "material", "materials", "keyed", "own_day", "applied", "undone")
 """What Apply notes of an object, which is no setting."""
 
 

@@ -291,7 +291,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         size=4,
         options={"HIDDEN"},
     )
-
+    own_day: StringProperty(name="Own Day", description="Your own tan_day", options={"HIDDEN"})
     applied: StringProperty(
         name="Applied",
         description="The settings that the tan shows, as Apply noted them",

@@ -7,7 +7,7 @@ shows; what nobody has chosen or applied goes by whether the object has a tan.
 
 from typing import Any
 
-from ..scene.plan import DAY_PROPERTY
+from ..scene.slots import has_tan
 
 KINETICS = (
     (
@@ -51,4 +51,4 @@ def keep_redness(settings: Any, is_on: bool) -> None:
 
 def _is_former(settings: Any) -> bool:
     """Whether an object without a choice has a tan, so that it is from before there was one."""
-    return settings.group is not None or DAY_PROPERTY in settings.id_data
+    return has_tan(settings.id_data)

@@ -17,16 +17,23 @@ from .timeline import (
     LAYER,
     SLOT,
     assign,
+    give_back,
     is_driven,
     keys_of,
+    shown_day,
     strips,
 )
 
 
-def remove_day(obj: bpy.types.Object, changes: Changes) -> list[str]:
+def remove_day(obj: bpy.types.Object, changes: Changes, own: str = "") -> list[str]:
     """Take the day off an object, and return sentences on what stays.
 
     Other animation stays. Where others are moved by the same action, they keep theirs.
+
+    Parameters
+    ----------
+    own : str
+        The artist's own number of that name, as `own_day` told it before Apply.
     """
     if is_driven(obj):
         return [f"A driver governs the property {DAY_PROPERTY!r}, which stays."]
@@ -36,12 +43,16 @@ def remove_day(obj: bpy.types.Object, changes: Changes) -> list[str]:
     for strip in strips(obj):
         if _curve(strip) is not None and not _others(obj, strip.action_slot):
             changes.at_the_end(partial(_empty, strip.action, strip.action_slot))
-    changes.at_the_end(partial(_remove_property, obj))
-    return []
+    if shown_day(obj) is None and DAY_PROPERTY in obj:
+        return [f"The property {DAY_PROPERTY!r} holds no day and stays."]
+    changes.at_the_end(partial(_remove_property, obj, own))
+    return [f"The property {DAY_PROPERTY!r} is again what it was before Apply."] if own else []
 
 
-def _remove_property(obj: bpy.types.Object) -> None:
+def _remove_property(obj: bpy.types.Object, own: str) -> None:
     obj.pop(DAY_PROPERTY, None)
+    if own:
+        give_back(obj, own)
     obj.update_tag()
 
 

@@ -61,9 +61,9 @@ def shown_groups(obj: bpy.types.Object) -> Iterator[bpy.types.NodeTree]:
 
 def has_tan(obj: bpy.types.Object) -> bool:
     """Whether an object has been given a tan, or a material with that of another."""
-    if remembered(obj).group is not None or DAY_PROPERTY in obj:
-        return True
-    return any(shown_groups(obj))
+    settings = remembered(obj)
+    is_timed = DAY_PROPERTY in obj and bool(any(settings.keyed) or settings.applied)
+    return settings.group is not None or is_timed or any(shown_groups(obj))
 
 
 def shown_trees(obj: bpy.types.Object, group: bpy.types.NodeTree) -> Iterator[bpy.types.NodeTree]:

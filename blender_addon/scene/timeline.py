@@ -1,5 +1,6 @@
 """The day of the tan on the timeline: a keyed custom property of the object, without a script."""
 
+import json
 from collections.abc import Iterator
 from typing import Any, cast
 
@@ -43,6 +44,20 @@ def check_day_property(obj: bpy.types.Object) -> None:
             f"The custom property {DAY_PROPERTY!r} of {obj.name!r} holds no number, and the day of "
             "the tan needs that name; rename the property."
         )
+
+
+def own_day(obj: bpy.types.Object) -> str:
+    """An object's own number called as the day, which no key or driver moves, as JSON; else ""."""
+    if not isinstance(obj.get(DAY_PROPERTY), int | float) or is_driven(obj) or any(day_curves(obj)):
+        return ""
+    appearance = cast(Any, obj).id_properties_ui(DAY_PROPERTY).as_dict()
+    return json.dumps([obj[DAY_PROPERTY], appearance])
+
+
+def give_back(obj: bpy.types.Object, own: str) -> None:
+    """Have an object's own number again."""
+    obj[DAY_PROPERTY], appearance = json.loads(own)
+    _set_appearance(obj, appearance)
 
 
 def shown_day(obj: bpy.types.Object) -> float | None:

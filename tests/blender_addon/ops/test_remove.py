@@ -17,6 +17,8 @@ from artist_skins import (
 from scenes import add_mask, apply, tan_object
 from state import of_tree, state
 
+from blender_addon.apply import apply_tan
+
 MAKERS = [
     lambda: [make(f"skin {make.__name__}") for make in KINDS],
     lambda: [plain("skin"), None, plain("eyes")],
@@ -231,3 +233,20 @@ def shader_material():
     group = shader_group("Shared", colour_input=False)
     output_of(material.node_tree, show(material.node_tree, group).outputs[0])
     return material
+
+
+def test_an_artists_own_property_of_that_name_stays(table_path):
+    obj = tan_object(table_path)
+    obj["tan_day"] = "a note"
+    assert not bpy.ops.skin_tan.remove.poll()
+    obj["tan_day"] = 7.0
+    obj.id_properties_ui("tan_day").update(description="Mine", max=9.0)
+    assert not bpy.ops.skin_tan.remove.poll()
+    obj.skin_tan.property_unset("kinetics_kept")
+    assert obj.skin_tan.kinetics == "MEASURED"
+    assert "'tan_day', which you had," in apply_tan(obj, bpy.context.scene)
+    bpy.ops.skin_tan.apply()
+    bpy.ops.skin_tan.remove()
+    shown = obj.id_properties_ui("tan_day").as_dict()
+    assert (obj["tan_day"], shown["description"], shown["max"]) == (7.0, "Mine", 9.0)
+    assert not obj.animation_data and not bpy.ops.skin_tan.remove.poll()

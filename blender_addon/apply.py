@@ -276,7 +276,7 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     if settings_of(obj).film != "NONE":
         remarks += _on_film(obj, skin)
     if timeline.is_driven(obj):
-        remarks.append("A driver governs the day of the tan, so its keys have no effect.")
+        remarks.append(timeline.DRIVEN)
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")

@@ -40,7 +40,10 @@ def reset(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
         at = frames(settings, days, scene)
         _key(obj, scene, days, at, changes)
         changes.at_the_end(partial(timeline.remove_modifiers, obj))
-    return f"Day {days[0]:g} is at frame {at[0]:g}, day {days[1]:g} at frame {at[1]:g}."
+    said = f"Day {days[0]:g} is at frame {at[0]:g}, day {days[1]:g} at frame {at[1]:g}."
+    if timeline.is_driven(obj):
+        return f"{timeline.DRIVEN} They are: {said}"
+    return " ".join([said, *timeline.mutings(obj)])
 
 
 def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
@@ -91,11 +94,14 @@ def key(
     settings = settings_of(obj)
     if settings.timing == OWN:
         timeline.set_first_day(obj, days[0], changes)
-        return []
+        return timeline.mutings(obj) if is_timed(obj) else [_without_keys(obj)]
     said: list[str] = []
     keyed = tuple(settings.keyed) if any(settings.keyed) else (*days, *at)
     if timeline.has_own_keys(obj, keyed):
-        return ["The keys of the day are your own and stay as they are (Reset Timing sets them)."]
+        if not timeline.has_keys(obj):
+            return [_without_keys(obj)]
+        stay = "The keys of the day are your own and stay as they are (Reset Timing sets them)."
+        return [stay, *timeline.mutings(obj)]
     own = "" if any(settings.keyed) else timeline.own_day(obj)
     if own:
         changes.set(settings, "own_day", own)
@@ -103,7 +109,20 @@ def key(
             f"The property {timeline.DAY_PROPERTY!r}, which you had, is the day of the tan now."
         ]
     _key(obj, scene, days, at, changes)
-    return said
+    return said + timeline.mutings(obj)
+
+
+def is_timed(obj: bpy.types.Object) -> bool:
+    """Whether keys or a driver govern the day of an object."""
+    return timeline.is_driven(obj) or timeline.has_keys(obj)
+
+
+def _without_keys(obj: bpy.types.Object) -> str:
+    day = timeline.shown_day(obj) or 0.0
+    return (
+        f"The day of {obj.name!r} has no keys, so all frames show day {day:g}: key the property "
+        f"{timeline.DAY_PROPERTY!r}, or let Reset Timing key it."
+    )
 
 
 def _key(

@@ -68,7 +68,8 @@ class SKIN_TAN_OT_apply(bpy.types.Operator):  # noqa: N801
             obj = tannable(active_object(context))
             with _exposed(obj), _fitted(obj) as fitted:
                 said = " ".join([apply_tan(obj, scene), *fitted])
-            darkest = timing.show_darkest(obj, scene) if self.show else ""
+            is_shown = self.show and timing.is_timed(obj)
+            darkest = timing.show_darkest(obj, scene) if is_shown else ""
             if darkest != timing.NOT_SEEN:  # else Apply has said why
                 said = f"{said} {darkest}".rstrip()
         except InputError as error:
@@ -177,11 +178,13 @@ def _apply(
         try:
             tannable(obj)
             with _set_as(obj, settings) if settings else nullcontext():
-                apply_tan(obj, scene)
+                said = apply_tan(obj, scene)
         except InputError as error:
             operator.report({"WARNING"}, f"{obj.name}: {error}")
         else:
             done.append(obj)
+            if said:
+                operator.report({"INFO"}, f"{obj.name}: {said}")
     if done:
         operator.report({"INFO"}, f"Applied to {', '.join(repr(obj.name) for obj in done)} too.")
     return done

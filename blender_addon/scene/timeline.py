@@ -20,6 +20,8 @@ COORDINATES = ("co", "handle_left", "handle_right")
 ANIMATION, ACTION, SLOT, BAG, LAYER = "animation", "action", "slot", "channels", "layer"
 """What was made for the day, as an action says in a custom property."""
 
+DRIVEN = "A driver governs the day of the tan, so its keys have no effect."
+
 SAME = 1e-3
 """Frames and days no further apart are the same."""
 
@@ -70,6 +72,18 @@ def is_driven(obj: bpy.types.Object) -> bool:
     """Whether a driver governs the day, so that its keys have no effect."""
     drivers: Any = obj.animation_data.drivers if obj.animation_data else ()
     return any(driver.data_path == DATA_PATH and not driver.mute for driver in drivers)
+
+
+def has_keys(obj: bpy.types.Object) -> bool:
+    """Whether the day has any key."""
+    return any(len(curve.keyframe_points) for curve in day_curves(obj))
+
+
+def mutings(obj: bpy.types.Object) -> list[str]:
+    """Sentences on curves of the day that are switched off."""
+    curves = list(day_curves(obj))
+    muted = [curve for curve in curves if curve.mute or (curve.group and curve.group.mute)]
+    return ["The curve of the day is muted, so its keys have no effect."] if muted else []
 
 
 def has_own_keys(obj: bpy.types.Object, keyed: tuple[float, ...]) -> bool:

@@ -168,3 +168,29 @@ def test_remove_leaves_keys_of_one_s_own(body):
     apply(body)
     bpy.ops.skin_tan.remove()
     assert keys(body) == before and body["tan_day"] == 4.0
+
+
+def test_own_keys_that_are_not_there_yet_are_said(body, capfd):
+    body.skin_tan.timing = "OWN"
+    assert bpy.ops.skin_tan.apply(show=True) == {"FINISHED"}
+    assert body.skin_tan.group is not None
+    assert "has no keys, so all frames show day 0: key the property" in capfd.readouterr().out
+
+
+def test_a_curve_without_keys_or_muted_is_said(body, capfd):
+    apply(body)
+    curve(body).mute = True
+    apply(body)
+    assert "The curve of the day is muted" in capfd.readouterr().out
+    curve(body).mute = False
+    curve(body).keyframe_points.clear()
+    apply(body)
+    said = capfd.readouterr().out
+    assert "has no keys" in said and "your own" not in said
+
+
+def test_reset_says_that_a_driver_governs_the_day(body, capfd):
+    apply(body)
+    body.driver_add('["tan_day"]').driver.expression = "3.0"
+    bpy.ops.skin_tan.reset_timing()
+    assert "A driver governs the day of the tan" in capfd.readouterr().out

@@ -103,3 +103,10 @@ def test_what_cannot_be_copied_leaves_the_other_as_it_was(pair, tanned):
     first.skin_tan.mask.source = ""
     assert bpy.ops.skin_tan.copy_to_selected() == {"FINISHED"}
     assert [exposure.name for exposure in own.exposures] == [""] and own.timing == "SCENE"
+
+
+def test_what_is_said_of_other_objects_names_them(pair, capfd):
+    pair[1].skin_tan.exposures[0].enabled = False
+    bpy.ops.skin_tan.apply()
+    said = capfd.readouterr().out
+    assert "Second: Applied" in said and "All times in the sun of 'Second' are switched off" in said

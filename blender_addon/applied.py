@@ -1,10 +1,13 @@
 """Whether what an artist has set is what Apply has last shown."""
 
+import ast
 import hashlib
 
 import bpy
 
+from .model.timing import SCENE, SPEED
 from .props import SkinTanSettings, settings_of
+from .scene import timeline
 from .scene.changes import Changes
 
 NOTES = frozenset(
@@ -24,9 +27,43 @@ SKIN = frozenset("skin table_path kinetics".split())
 
 SEPARATOR = "\n"
 
+Frames = tuple[int, int, int, float]
+"""Of a scene: the first, the last, those of a second, and what divides these."""
 
-def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """All that decides an object's look, in lines: schedule, biology, skin, and the rest."""
+
+def scene_frames(scene: bpy.types.Scene) -> Frames:
+    return scene.frame_start, scene.frame_end, scene.render.fps, scene.render.fps_base
+
+
+def applied_frames(obj: bpy.types.Object, scene: bpy.types.Scene) -> Frames:
+    """The scene's frames as the last Apply has met them; before one, as they are."""
+    try:
+        _, frames, *_ = ast.literal_eval(settings_of(obj).applied.split(SEPARATOR)[-1])
+        first, last, rate, base = frames
+        return first, last, rate, base
+    except (ValueError, SyntaxError, TypeError):
+        return scene_frames(scene)
+
+
+def is_left_behind(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether Apply would key an object's days elsewhere, since the scene has other frames now."""
+    settings, former, now = settings_of(obj), applied_frames(obj, scene), scene_frames(scene)
+    way = settings.timing_values().way
+    is_moved = (way == SCENE and former[:2] != now[:2]) or (
+        way == SPEED and former[2] * now[3] != now[2] * former[3]
+    )
+    return is_moved and not timeline.has_own_keys(obj, tuple(settings.keyed))
+
+
+def text_of(obj: bpy.types.Object, scene: bpy.types.Scene, frames: Frames | None = None) -> str:
+    """All that decides an object's look, in lines: schedule, biology, skin, and the rest.
+
+    Parameters
+    ----------
+    frames : tuple, optional
+        Of the scene. By default those of the last Apply: what else is set there, a shorter range
+        to render, or another scene with the object, is no change of the tan.
+    """
     settings = settings_of(obj)
     names = [prop.identifier for prop in settings.bl_rna.properties]
     others = {*NOTES, *SCHEDULE, *SKIN, BIOLOGY}
@@ -38,16 +75,14 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
             [name for name in names if name not in others],
         )
     )
-    render, units = scene.render, scene.unit_settings
-    frames = scene.frame_start, scene.frame_end, render.fps, render.fps_base
-    biology = _value(settings, BIOLOGY)
+    units, biology = scene.unit_settings, _value(settings, BIOLOGY)
+    frames = frames or applied_frames(obj, scene)
     lines = schedule, biology, skin, (rest, frames, units.system, units.scale_length)
     return SEPARATOR.join(map(repr, lines))
 
 
-def note(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None:
-    """Remember that an object's look is that of its settings."""
-    text = text_of(obj, scene)
+def note(obj: bpy.types.Object, text: str, changes: Changes) -> None:
+    """Remember that an object's look is that of its settings, of which a text tells."""
     if settings_of(obj).applied != text:
         changes.set(settings_of(obj), "applied", text)
 

@@ -42,7 +42,9 @@ from .scene.several import made_images as made_of_masks
 from .views import keep_view, remember_source
 
 
-def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bool = False) -> str:
+def apply_tan(
+    obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bool = False, live: bool = False
+) -> str:
     """Give an object the tan that its settings describe, and return a sentence on what was done.
 
     No other object changes its look. Nothing in the file is changed where an error is raised.
@@ -51,6 +53,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     ----------
     rough : bool
         Whether the look is for a moment only; the object still counts as changed then.
+    live : bool
+        Whether the scene's frames count as the last Apply has met them, not as they are.
 
     Raises
     ------
@@ -64,7 +68,8 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
     unit = size.body_unit(obj, scene)
     values = settings.values()
     days = values.first_day, values.last_day
-    frames = timing.frames(settings, days, scene)
+    seen = applied.applied_frames(obj, scene) if live else applied.scene_frames(scene)
+    frames = timing.frames(settings, days, seen)
     tan = tan_of(values, rough=rough)
     of_masks = several.computed(obj, rough=rough)
     with Changes() as changes:
@@ -89,12 +94,7 @@ def apply_tan(obj: bpy.types.Object | None, scene: bpy.types.Scene, *, rough: bo
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
-        text = applied.text_of(obj, scene)
-        images.note_content((sampled.states, sampled.places), applied.digest(text))
-        if rough and settings.biology.is_changed():
-            images.note_shown(sampled.of_look(), applied.look_digest(text))
-        if not rough:
-            applied.note(obj, scene, changes)
+        _note(obj, sampled, applied.text_of(obj, scene, seen), changes, rough=rough)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *told, *timed, *_remarks(obj, skin, values, tan), *_on_size(obj, scene)]
         said += [] if rough else _on_dose(obj, values)
@@ -214,6 +214,17 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
         last_day=history.last_day,
         scene_unit=unit,
     )
+
+
+def _note(
+    obj: bpy.types.Object, sampled: nodes.Sampled, text: str, changes: Changes, *, rough: bool
+) -> None:
+    """Note in images, and where they are exact on the object, of which settings they are."""
+    images.note_content((sampled.states, sampled.places), applied.digest(text))
+    if rough and settings_of(obj).biology.is_changed():
+        images.note_shown(sampled.of_look(), applied.look_digest(text))
+    if not rough:
+        applied.note(obj, text, changes)
 
 
 def _show_film(

@@ -128,7 +128,7 @@ def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precisio
         show_look(obj, text, rough=True)
     else:
         takes_longer = settings.biology.is_changed() or has_several(obj)
-        apply_tan(obj, scene, rough=precision is DRAG and takes_longer)
+        apply_tan(obj, scene, rough=precision is DRAG and takes_longer, live=True)
         return True
     return False
 

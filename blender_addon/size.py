@@ -44,7 +44,7 @@ def fit_size(obj: bpy.types.Object | None, scene: bpy.types.Scene, model_scale: 
         for other in dict.fromkeys((obj, *mended)):
             size.fit(other, scene, changes)
         if was_shown and settings.group is not None:
-            applied.note(obj, scene, changes)
+            applied.note(obj, applied.text_of(obj, scene), changes)
             history = nodes.own_history(settings.group) or ()
             images.note_content(history, applied.digest(settings.applied))
     said = f"{obj.name!r} is {settings.model_scale:.3g} times life-size."

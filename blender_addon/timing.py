@@ -6,11 +6,12 @@ import bpy
 
 from hylios.errors import InputError
 
+from . import applied
 from .model.curve import curve_of, is_seen
 from .model.settings import check_days
 from .model.timing import OWN, SCENE, frames_of
 from .props import SkinTanSettings, settings_of
-from .scene import timeline
+from .scene import images, nodes, timeline
 from .scene.changes import Changes
 
 NEAR = 1.0
@@ -37,8 +38,10 @@ def reset(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     with Changes() as changes:
         if settings.timing == OWN:
             changes.set(settings, "timing", SCENE)
-        at = frames(settings, days, scene)
+        seen = applied.scene_frames(scene)
+        at = frames(settings, days, seen)
         _key(obj, scene, days, at, changes)
+        _note_frames(obj, scene, seen, changes)
         changes.at_the_end(partial(timeline.remove_modifiers, obj))
     said = f"Day {days[0]:g} is at frame {at[0]:g}, day {days[1]:g} at frame {at[1]:g}."
     if timeline.is_driven(obj):
@@ -80,11 +83,9 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     return f"Frame {frame} shows the {what} day, day {day:.0f}."
 
 
-def frames(settings: SkinTanSettings, days: Pair, scene: bpy.types.Scene) -> Pair:
-    """Frames of the first and the last day; errors as in `frames_of`."""
-    rate = scene.render.fps / scene.render.fps_base
-    within = scene.frame_start, scene.frame_end
-    return frames_of(settings.timing_values(), days, within, rate)
+def frames(settings: SkinTanSettings, days: Pair, seen: applied.Frames) -> Pair:
+    """Frames of the first and the last day, by a scene's; errors as in `frames_of`."""
+    return frames_of(settings.timing_values(), days, seen[:2], seen[2] / seen[3])
 
 
 def key(
@@ -130,3 +131,15 @@ def _key(
 ) -> None:
     timeline.key_days(obj, scene, changes, days, at)
     changes.set(settings_of(obj), "keyed", (*days, *at))
+
+
+def _note_frames(
+    obj: bpy.types.Object, scene: bpy.types.Scene, seen: applied.Frames, changes: Changes
+) -> None:
+    """Remember where the days lie now; what else has changed since Apply still has."""
+    settings = settings_of(obj)
+    if settings.group is None or applied.is_changed(obj, scene):
+        return
+    applied.note(obj, applied.text_of(obj, scene, seen), changes)
+    history = nodes.own_history(settings.group) or ()
+    images.note_content(history, applied.digest(settings.applied))

@@ -127,6 +127,8 @@ GERMAN = {
     "Day {day:g}": "Tag {day:g}",
     "Select a mesh object": "Ein Mesh-Objekt auswählen",
     "Changed: Apply Tan shows it": "Geändert: bitte anwenden",
+    "Scene's frames have changed:": "Bilder der Szene sind anders:",
+    "Apply Tan follows them": "Anwenden richtet sich danach",
     "Add a time in the sun with +": "Mit + eine Zeit hinzufügen",
     "Tans from {mmd:.1f} SED of sun,": "Bräunt ab {mmd:.1f} SED Sonne,",
     "burns from {med:.1f} SED (estimates)": "rötet ab {med:.1f} SED (geschätzt)",

@@ -4,7 +4,7 @@ from typing import Any, cast
 
 import bpy
 
-from ..applied import is_changed
+from ..applied import is_changed, is_left_behind
 from ..model.lines import Line
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
@@ -21,6 +21,8 @@ from .regions import draw_regions
 from .size import draw_size
 from .skin import draw_film, draw_skin
 from .timeline import draw_timeline
+
+FRAMES_CHANGED = (Line("Scene's frames have changed:"), Line("Apply Tan follows them"))
 
 
 class _Sidebar:
@@ -59,6 +61,8 @@ class _Main:
         layout.prop(settings, "live")
         if is_changed(obj, current_scene(context)) and not settings.live:
             layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
+        if is_left_behind(obj, current_scene(context)):
+            draw_lines(layout, FRAMES_CHANGED, "INFO")
         draw_size(layout, obj, current_scene(context))
         layout.operator("skin_tan.remove", icon="X")
 

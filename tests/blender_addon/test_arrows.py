@@ -14,8 +14,8 @@ SUBJECTS = {
     "painting.py": {"timers", "scene"},
     "renaming.py": {"props"},
     "masking.py": {"scene", "props", "hylios.errors"},
-    "timing.py": {"model", "scene", "props", "hylios.errors"},
-    "applied.py": {"scene", "props"},
+    "timing.py": {"applied", "model", "scene", "props", "hylios.errors"},
+    "applied.py": {"model", "scene", "props"},
     "live.py": {
         "applied",
         "timers",

@@ -5,6 +5,8 @@ import pytest
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import apply, tan_object
 
+from blender_addon import applied, live
+
 
 @pytest.fixture
 def body(table_path):
@@ -194,3 +196,47 @@ def test_reset_says_that_a_driver_governs_the_day(body, capfd):
     body.driver_add('["tan_day"]').driver.expression = "3.0"
     bpy.ops.skin_tan.reset_timing()
     assert "A driver governs the day of the tan" in capfd.readouterr().out
+
+
+def live_shows():
+    live.show_changes()
+    live.make_exact()
+
+
+def test_live_leaves_the_days_where_apply_met_the_scene(body):
+    """Whatever range is set for a test render, and in another scene too."""
+    scene = bpy.context.scene
+    apply(body)
+    made = [(1, 0), (250, 30)]
+    scene.frame_start, scene.frame_end = 95, 105
+    live_shows()
+    assert keys(body) == made and applied.is_left_behind(body, scene)
+    assert not applied.is_changed(body, scene)
+    body.skin_tan.last_day = 20.0
+    live_shows()
+    assert keys(body) == [(1, 0), (250, 20)] and not applied.is_changed(body, scene)
+    other = bpy.data.scenes.new("Shot")
+    other.frame_end = 1000
+    other.collection.objects.link(body)
+    bpy.context.window.scene = other
+    live_shows()
+    assert keys(body) == [(1, 0), (250, 20)]
+    bpy.context.window.scene = scene
+    apply(body)
+    assert keys(body) == [(95, 0), (105, 20)] and not applied.is_left_behind(body, scene)
+
+
+@pytest.mark.parametrize("way", ["SCENE", "SPEED"])
+def test_reset_timing_follows_the_scene_and_live_stays_there(body, way):
+    scene = bpy.context.scene
+    body.skin_tan.timing = way
+    apply(body)
+    scene.frame_end, scene.render.fps = 99, 60
+    assert applied.is_left_behind(body, scene)
+    bpy.ops.skin_tan.reset_timing()
+    assert not applied.is_left_behind(body, scene) and not live._stale(scene)
+    reset = keys(body)
+    body.skin_tan.exposures[0].dose = 3.0
+    live_shows()
+    apply(body)
+    assert keys(body) == reset and reset[1][0] == (99 if way == "SCENE" else 601)

@@ -18,6 +18,7 @@ from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
 from .props import SkinTanSettings, settings_of
+from .props.region import is_shown
 from .scene import (
     detail,
     film,
@@ -286,11 +287,12 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
         )
     if settings_of(obj).film != "NONE":
         remarks += _on_film(obj, skin)
+    remarks += _on_regions(settings_of(obj))
     if timeline.is_driven(obj):
         remarks.append(timeline.DRIVEN)
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
-        remarks.append(f"Exposures after day {values.last_day:g} have no effect: {late}.")
+        remarks.append(f"Times in the sun after day {values.last_day:g} have no effect: {late}.")
     if values.redness and not holds_redness(catalogue.table(values.table)):
         remarks.append("The table holds no blood, so no sunburn shows.")
     if not tan.look.has_profile:
@@ -310,10 +312,22 @@ def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
     return [*seen, *_on_own_masks(settings_of(obj))]
 
 
-def _on_own_masks(settings: SkinTanSettings) -> list[str]:
-    """Which exposures are to have a mask of their own and have none."""
+def _on_regions(settings: SkinTanSettings) -> list[str]:
+    """Which regions are on and lie nowhere."""
     without = [
-        repr(exposure.name) if exposure.name else f"exposure {number}"
+        region.label()
+        for region in settings.regions
+        if region.enabled and region.strength > 0.0 and not is_shown(region)
+    ]
+    if not without:
+        return []
+    return [f"No mask says where these regions lie, so they do not show: {', '.join(without)}."]
+
+
+def _on_own_masks(settings: SkinTanSettings) -> list[str]:
+    """Which times in the sun are to have a mask of their own and have none."""
+    without = [
+        repr(exposure.name) if exposure.name else f"time in the sun {number}"
         for number, exposure in enumerate(settings.exposures, 1)
         if exposure.enabled and exposure.own_mask and not masks.Mask.of(exposure.mask)
     ]

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from hylios.errors import InputError
 
 from .apply import mesh_object
-from .model.matching import Match, nearest
+from .model.matching import nearest
 from .own_colour import painted_skin
 from .props import SkinTanSettings
 
@@ -28,16 +28,12 @@ def match_colour(settings: SkinTanSettings, colour: NDArray, *, adjust: bool) ->
     match = nearest(colour)
     settings.skin = match.skin
     settings.biology.reset()
-    said = f"Type {match.skin} is nearest, {match.distance:.1f} CIEDE2000 away"
-    if not adjust or match.left == match.distance:
-        return f"{said}."
-    return f"{said}; {_adjusted(settings, match)}."
-
-
-def _adjusted(settings: SkinTanSettings, match: Match) -> str:
-    biology = match.biology
-    settings.biology.melanin, settings.biology.blood = biology.melanin, biology.blood
-    return f"with melanin {biology.melanin:g} and blood {biology.blood:g}, {match.left:.1f}"
+    said = f"Type {match.skin} is nearest: colour distance {match.distance:.1f}"
+    if adjust and match.left != match.distance:
+        biology = match.biology
+        settings.biology.melanin, settings.biology.blood = biology.melanin, biology.blood
+        said += f", {match.left:.1f} after adjusting melanin and blood"
+    return f"{said} (1 is just seen)."
 
 
 def own_colour(obj: bpy.types.Object | None) -> NDArray[np.float64]:

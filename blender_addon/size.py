@@ -47,5 +47,6 @@ def fit_size(obj: bpy.types.Object | None, scene: bpy.types.Scene, model_scale: 
             applied.note(obj, applied.text_of(obj, scene), changes)
             history = nodes.own_history(settings.group) or ()
             images.note_content(history, applied.digest(settings.applied))
-    said = f"{obj.name!r} is {settings.model_scale:.3g} times life-size."
-    return f"{said} Light goes as far as it should in {names(mended)}." if mended else said
+    scale = f"{settings.model_scale:.3g}"
+    said = f"{obj.name!r} is {'' if scale == '1' else f'{scale} times '}life-size."
+    return f"{said} Light in the skin of {names(mended)} now fits its size." if mended else said

@@ -70,9 +70,7 @@ def show_darkest(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
         return "A driver or a strip of the NLA governs the day of the tan; the frame stays."
     frame = timeline.frame_of_day(obj, scene, day)
     if frame is None:
-        raise InputError(
-            f"The day of {obj.name!r} has no keys; Apply Tan or Reset Timing sets them."
-        )
+        raise InputError(f"The day of {obj.name!r} has no keys; Apply Tan or Reset sets them.")
     scene.frame_set(frame)
     shown = timeline.shown_day(obj)
     if shown is not None and abs(shown - day) > NEAR:
@@ -101,7 +99,7 @@ def key(
     if timeline.has_own_keys(obj, keyed):
         if not timeline.has_keys(obj):
             return [_without_keys(obj)]
-        stay = "The keys of the day are your own and stay as they are (Reset Timing sets them)."
+        stay = "The keys of the day are your own and stay as they are (Reset sets them)."
         return [stay, *timeline.mutings(obj)]
     own = "" if any(settings.keyed) else timeline.own_day(obj)
     if own:
@@ -122,7 +120,7 @@ def _without_keys(obj: bpy.types.Object) -> str:
     day = timeline.shown_day(obj) or 0.0
     return (
         f"The day of {obj.name!r} has no keys, so all frames show day {day:g}: key the property "
-        f"{timeline.DAY_PROPERTY!r}, or let Reset Timing key it."
+        f"{timeline.DAY_PROPERTY!r}, or let Reset key it."
     )
 
 

@@ -196,7 +196,8 @@ def basis(
 def _checked(shares: ArrayLike, masks: int) -> NDArray[np.float64]:
     if not 1 <= masks <= MOST_MASKS:
         raise InputError(
-            f"exposures have {masks} masks; allowed are 1 to {MOST_MASKS} different ones on a mesh."
+            f"times in the sun have {masks} masks; allowed are 1 to {MOST_MASKS} different ones on "
+            "a mesh."
         )
     given = as_numbers("shares", shares)
     if given.ndim != 2 or given.shape[1] != masks or not len(given):

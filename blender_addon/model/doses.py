@@ -53,7 +53,7 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
         over = sunscreen(factor, exposure.sunscreen_amount)
     hour = begin(exposure)
     if exposure.unit == "SED":
-        dose = require_range("dose of an exposure", exposure.dose, 0.0, DOSE_LIMIT, "SED")
+        dose = require_range("dose of a time in the sun", exposure.dose, 0.0, DOSE_LIMIT, "SED")
         return of_sed(hour, dose, over)
     if exposure.unit == "MMD":
         multiple = require_range("number of tanning doses", exposure.multiple, 0.0, MULTIPLE_LIMIT)
@@ -73,7 +73,7 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
         )
         return replace(from_midnight, hours=from_midnight.hours + 24.0 * np.floor(exposure.day))
     raise InputError(
-        f"unit of an exposure is {exposure.unit!r}; allowed are SED, MMD, UV_INDEX and SUN."
+        f"unit of a time in the sun is {exposure.unit!r}; allowed are SED, MMD, UV_INDEX and SUN."
     )
 
 
@@ -104,7 +104,7 @@ def begin(exposure: Exposure) -> int:
     InputError
         If its day or its hour is out of range.
     """
-    require_range("day of an exposure", exposure.day, 0.0, LAST_DAY_LIMIT)
+    require_range("day of a time in the sun", exposure.day, 0.0, LAST_DAY_LIMIT)
     if exposure.unit == "SUN":
         require_range("hour of sun", exposure.from_hour, 0.0, 24.0)
         return 24 * int(exposure.day) + int(exposure.from_hour)

@@ -73,7 +73,9 @@ class SKIN_TAN_OT_export_exposures(_SavesCsv, bpy.types.Operator):  # noqa: N801
 class SKIN_TAN_OT_export_schedule(_SavesCsv, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.export_schedule"
     bl_label = "Export Schedule"
-    bl_description = "Save these exposures as CSV, to build a smaller table for this scene only"
+    bl_description = (
+        "Save these times in the sun as CSV, to build a smaller table for this scene only"
+    )
 
     def subject(self, context: bpy.types.Context) -> bpy.types.Object:
         return tannable(active_object(context))

@@ -24,21 +24,21 @@ def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.add_exposure"
-    bl_label = "Add Exposure"
+    bl_label = "Add Time in the Sun"
     bl_description = "Add a time in the sun, a day after the last one"
     bl_options = {"REGISTER", "UNDO"}
 
     name: StringProperty(name="Name", description="What you call this time in the sun")
     day: FloatProperty(
         name="Day",
-        description="Day from the start of the tan; a day after the last exposure if not given",
+        description="Day from the start of the tan; a day after the last if not given",
         min=0.0,
         max=LAST_DAY_LIMIT,
         options={"SKIP_SAVE"},
     )
     dose: FloatProperty(
         name="Dose (SED)",
-        description="How much sun in standard erythema doses; as the last exposure if not given",
+        description="How much sun in standard erythema doses; as the last time if not given",
         min=0.0,
         max=DOSE_LIMIT,
         options={"SKIP_SAVE"},
@@ -70,7 +70,7 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
 
 class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.duplicate_exposure"
-    bl_label = "Duplicate Exposure"
+    bl_label = "Duplicate Time in the Sun"
     bl_description = "Copy the selected time in the sun, on the same day"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -92,7 +92,7 @@ class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
 
 class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.move_exposure"
-    bl_label = "Move Exposure"
+    bl_label = "Move Time in the Sun"
     bl_description = "Move the selected time in the sun up or down the list; its day stays"
     bl_options = {"REGISTER", "UNDO"}
 
@@ -118,7 +118,7 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
 
 class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.remove_exposure"
-    bl_label = "Remove Exposure"
+    bl_label = "Remove Time in the Sun"
     bl_description = "Remove the selected time in the sun"
     bl_options = {"REGISTER", "UNDO"}
 

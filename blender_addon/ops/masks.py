@@ -21,9 +21,13 @@ MODES = {"COLOUR": "VERTEX_PAINT", "GROUP": "WEIGHT_PAINT", "IMAGE": "TEXTURE_PA
 
 
 TARGETS = (
-    ("AUTO", "Selected", "The selected exposure's own mask if it has one, else the object's"),
-    ("OBJECT", "Object", "The mask of all exposures without one of their own"),
-    ("EXPOSURE", "Exposure", "The selected exposure's own mask; it gets one if it has none"),
+    ("AUTO", "Selected", "The own mask of the selected time in the sun, else the object's"),
+    ("OBJECT", "Object", "The mask of all times in the sun without their own"),
+    (
+        "EXPOSURE",
+        "Time in the Sun",
+        "The own mask of the selected time in the sun, which gets one if it has none",
+    ),
 )
 """Which mask a button makes or paints."""
 
@@ -54,7 +58,9 @@ def edited_mask(obj: bpy.types.Object, target: str) -> SkinTanMask:
     if target == "OBJECT" or (target == "AUTO" and not exposures):
         return settings.mask
     if not exposures:
-        raise InputError(f"{obj.name!r} has no exposure that could have a mask; add one first.")
+        raise InputError(
+            f"{obj.name!r} has no time in the sun that could have a mask; add one first."
+        )
     exposure = exposures[min(settings.exposure_index, len(exposures) - 1)]
     if target == "EXPOSURE" and not exposure.own_mask:
         exposure.own_mask = True

@@ -15,7 +15,7 @@ class SKIN_TAN_OT_fit_size(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.fit_size"
     bl_label = "Fit Skin to Size"
     bl_description = (
-        "Have light go as far as it should in the skin of this object, and of all others in the "
+        "Fit how deep light goes in skin to the size of this object, and of all others in the "
         "scene that were made for other units. Keys, settings and colours stay"
     )
     bl_options = {"REGISTER", "UNDO"}

@@ -25,7 +25,7 @@ ADJUST = BoolProperty(
 class SKIN_TAN_OT_choose_type(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.choose_type"
     bl_label = "Choose Skin Type"
-    bl_description = "Give the object this skin type, with the biology of its own"
+    bl_description = "Give the object this skin type, with that type's usual melanin and blood"
     bl_options = {"REGISTER", "UNDO"}
 
     type: EnumProperty(
@@ -44,7 +44,8 @@ class SKIN_TAN_OT_choose_type(bpy.types.Operator):  # noqa: N801
             self.report({"ERROR"}, f"This add-on comes without type {self.type}; install it anew.")
             return {"CANCELLED"}
         settings.biology.reset()
-        self.report({"INFO"}, f"The skin is of type {self.type}, with the biology of its own.")
+        said = f"The skin is of type {self.type}, with that type's usual melanin and blood."
+        self.report({"INFO"}, said)
         return {"FINISHED"}
 
 

@@ -36,7 +36,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     unit: EnumProperty(
         name="Given as",
-        description="Unit of the exposure: a dose, or hours under a UV index or the sun of a date",
+        description="How much sun: as a dose, or as hours under a UV index or the sun of a date",
         items=UNITS,
         default="SED",
     )
@@ -137,7 +137,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     own_mask: BoolProperty(
         name="Own Mask",
-        description="Other cloth was worn this time: a mask for this exposure alone",
+        description="Other cloth was worn this time: a mask for this time in the sun alone",
         update=show_mask,
     )
     mask: PointerProperty(name="Mask", type=SkinTanMask)

@@ -109,8 +109,8 @@ class SkinTanMask(bpy.types.PropertyGroup):
     channel: CHANNEL
     invert: BoolProperty(
         name="Invert",
-        description="What is 1 is covered, what is 0 is bare, as of a vertex group that holds "
-        "what clothes cover",
+        description="The sun reaches where the mask is black (0), as with a vertex group that "
+        "holds what clothes cover",
         update=show_mask,
     )
     strength: FloatProperty(
@@ -144,7 +144,7 @@ class SkinTanFilmMask(bpy.types.PropertyGroup):
     channel: CHANNEL
     invert: BoolProperty(
         name="Invert",
-        description="What is 1 is dry, what is 0 is covered",
+        description="The film lies where the mask is black (0)",
         update=show_mask,
     )
     strength: FloatProperty(

@@ -56,7 +56,7 @@ FILMS = (
     ("NONE", "Dry", "Nothing lies on the skin"),
     ("WATER", "Water", "Skin that came out of the water"),
     ("OIL", "Oil", "Oiled skin"),
-    ("SUNSCREEN", "Sunscreen", "Skin with sunscreen on it; what it protects is set in exposures"),
+    ("SUNSCREEN", "Sunscreen", "Skin with sunscreen on it; times in the sun set how it protects"),
 )
 """What may lie on the skin, the names of liquids in capitals."""
 
@@ -209,7 +209,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         max=1.0,
     )
     exposures: CollectionProperty(type=SkinTanExposure)
-    exposure_index: IntProperty(name="Active Exposure", options={"HIDDEN"})
+    exposure_index: IntProperty(name="Active Time in the Sun", options={"HIDDEN"})
     film: EnumProperty(
         name="Film",
         description="What lies on the skin. It shines, and the skin's own gloss goes",
@@ -225,7 +225,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     region_index: IntProperty(name="Active Region", options={"HIDDEN"})
     mask: PointerProperty(
         name="Mask",
-        description="Where the sun reaches, for all exposures without a mask of their own",
+        description="Where the sun reaches, for all times in the sun without their own mask",
         type=SkinTanMask,
     )
     mask_attribute: StringProperty(

@@ -58,7 +58,7 @@ class SkinTanRegionMask(bpy.types.PropertyGroup):
     channel: CHANNEL
     invert: BoolProperty(
         name="Invert",
-        description="What is 1 is nothing, what is 0 is all of it",
+        description="The region lies where the mask is black (0)",
         update=show_mask,
     )
     strength: FloatProperty(

@@ -104,8 +104,8 @@ def _said(mask: Mask, numbers: NDArray[np.float32], where_covered: str = "") -> 
     said, is_number = [], np.isfinite(numbers)
     if not is_number.all():
         said.append(
-            f"{np.count_nonzero(~is_number)} of {numbers.size} numbers of the mask {name!r} are "
-            "infinite or none at all; they count as 0."
+            f"{np.count_nonzero(~is_number)} of {numbers.size} points of the mask {name!r} have "
+            "no valid value; they count as 0."
         )
     low, high = (
         np.min(numbers, where=is_number, initial=0),

@@ -168,7 +168,7 @@ def require_usable(obj: bpy.types.Object, mask: Mask) -> Source | None:
     Raises
     ------
     InputError
-        If it is not there any more, or cannot be a mask.
+        If it is not there, or cannot be a mask.
     """
     if not mask:
         return None
@@ -176,7 +176,7 @@ def require_usable(obj: bpy.types.Object, mask: Mask) -> Source | None:
     if source is None:
         usable = [item.name for item in usable_sources(obj, current_depsgraph())]
         raise InputError(
-            f"The mesh has no {mask.source!r} any more, which is its mask; allowed are: "
+            f"The mesh has no {mask.source!r}, which is set as a mask; allowed are: "
             f"{', '.join(usable[:12]) or 'none yet (press Paint Mask)'}."
         )
     if source.kind == "IMAGE":
@@ -221,9 +221,7 @@ def _require_image(obj: bpy.types.Object, mask: Mask) -> None:
             "unwrap the mesh first (UV > Unwrap in Edit Mode)."
         )
     if mask.uv_map and mask.uv_map not in {*maps, *uv_map_names(obj, current_depsgraph())}:
-        raise InputError(
-            f"The mesh has no UV map {mask.uv_map!r} any more; allowed are: {', '.join(maps)}."
-        )
+        raise InputError(f"The mesh has no UV map {mask.uv_map!r}; allowed are: {', '.join(maps)}.")
     if not image.size[0]:
         raise InputError(
             f"The image {image.name!r}, which is the mask, has no pixels; its file is missing "

@@ -240,7 +240,7 @@ def _sentences(
     if replaced or in_place:
         said.append(f"Gave back {names(dict.fromkeys([*replaced, *in_place]))}.")
     if any(back.stands_for.get(block, block) is None for block in done):
-        said.append("Slots that were empty are so again.")
+        said.append("Slots that had no material before the tan have none again.")
     if back.kept:
         said.append(f"Edited since Apply, so a copy stays: {names(back.kept)}.")
     if others:

@@ -65,7 +65,7 @@ def _draw_reading(
     layer = cast(Any, context).view_layer
     source = masks.source_of(obj, mask, layer.depsgraph if layer else None)
     if source is None:
-        draw_lines(layout, ("The mesh no longer has this mask:", "choose another one"), "ERROR")
+        draw_lines(layout, ("The mesh does not have this mask:", "choose another one"), "ERROR")
         return
     if source.kind == "IMAGE":
         if settings.image and settings.image.name != settings.source:

@@ -143,7 +143,7 @@ def test_objects_that_share_a_mesh_keep_their_own_skin(body, table_path):
 def test_exposures_after_the_last_day_are_reported(body, capfd):
     body.skin_tan.exposures.add().day = 40.0
     assert apply() == {"FINISHED"}
-    assert "Exposures after day 30 have no effect: 1." in capfd.readouterr().out
+    assert "Times in the sun after day 30 have no effect: 1." in capfd.readouterr().out
 
 
 def last_row():
@@ -267,7 +267,7 @@ def test_a_mask_under_a_name_of_cycles_own(body, name):
 
 def test_missing_mask(body):
     body.skin_tan.mask_attribute = "shade"
-    refused("The mesh has no 'shade' any more, which is its mask; allowed are: sun.")
+    refused("The mesh has no 'shade', which is set as a mask; allowed are: sun.")
 
 
 @pytest.mark.parametrize(
@@ -299,7 +299,7 @@ def test_days_and_frames_out_of_order(body):
 
 def test_dose_that_is_no_number(body):
     body.skin_tan.exposures[0].dose = float("nan")
-    refused("dose of an exposure is nan SED; allowed is 0 to 1000 SED")
+    refused("dose of a time in the sun is nan SED; allowed is 0 to 1000 SED")
 
 
 def test_tables_that_cannot_be_used(body, table_path, tmp_path):

@@ -62,11 +62,22 @@ def test_odd_numbers_in_one_of_several_masks_are_told(body, capfd):
     own = body.skin_tan.exposures.add()
     own.own_mask, own.mask.source, own.day = True, "odd", 2.0
     said = said_by_apply(body, capfd)
-    assert "4 of 16 numbers of the mask 'odd' are infinite or none at all; they count as 0." in said
+    assert "4 of 16 points of the mask 'odd' have no valid value; they count as 0." in said
     assert "Own Mask" not in said
 
 
-@pytest.mark.parametrize(("name", "called"), [("Beach", "'Beach'"), ("", "exposure 1")])
+def test_regions_that_lie_nowhere_are_told(body, capfd):
+    for kind in ("LIPS", "PALMS", "FRECKLES", "FLUSH"):
+        body.skin_tan.regions.add().kind = kind
+    body.skin_tan.regions[1].mask.source = "sun"
+    body.skin_tan.regions[3].enabled = False
+    told = "No mask says where these regions lie, so they do not show: "
+    assert f"{told}Lips." in said_by_apply(body, capfd)
+    body.skin_tan.regions[2].painted = True
+    assert f"{told}Lips, Freckles." in said_by_apply(body, capfd)
+
+
+@pytest.mark.parametrize(("name", "called"), [("Beach", "'Beach'"), ("", "time in the sun 1")])
 @pytest.mark.parametrize("several", [False, True])
 def test_an_empty_own_mask_is_told(body, capfd, several, name, called):
     exposure = body.skin_tan.exposures[0]

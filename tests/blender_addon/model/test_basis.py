@@ -153,8 +153,12 @@ def test_points_with_equal_shares_have_equal_coefficients():
 @pytest.mark.parametrize(
     ("masks", "shares", "sentence"),
     [
-        (MOST_MASKS + 1, np.ones((3, 9)), "exposures have 9 masks; allowed are 1 to 8 different"),
-        (0, np.ones((3, 0)), "exposures have 0 masks"),
+        (
+            MOST_MASKS + 1,
+            np.ones((3, 9)),
+            "times in the sun have 9 masks; allowed are 1 to 8 different",
+        ),
+        (0, np.ones((3, 0)), "times in the sun have 0 masks"),
         (2, np.ones((3, 3)), r"shares have shape \(3, 3\); expected \(points, 2 masks\)"),
         (2, np.ones((0, 2)), r"shares have shape \(0, 2\)"),
         (2, [[0.0, 1.5]], "a share is out of range; allowed is 0 to 1"),

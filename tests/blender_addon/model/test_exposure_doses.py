@@ -78,12 +78,12 @@ def test_thin_sunscreen_lets_through_the_root():
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"day": -1.0}, "day of an exposure is -1"),
+        ({"day": -1.0}, "day of a time in the sun is -1"),
         ({"unit": "SUN", "month": 2, "day_of_month": 30}, "day of the month is 30, which month 2"),
         ({"unit": "SUN", "from_hour": 15.0}, "sun is given from 15 to 13.5 h"),
         ({"sunscreen": True, "spf": 0.5}, "SPF is 0.5; allowed is 1 to"),
-        ({"dose": 1e308}, "dose of an exposure is 1e\\+308 SED; allowed is 0 to"),
-        ({"dose": float("nan")}, "dose of an exposure is nan SED"),
+        ({"dose": 1e308}, "dose of a time in the sun is 1e\\+308 SED; allowed is 0 to"),
+        ({"dose": float("nan")}, "dose of a time in the sun is nan SED"),
         (
             {"unit": "MMD", "multiple": 1e308},
             "number of tanning doses is 1e\\+308; allowed is 0 to",
@@ -95,7 +95,10 @@ def test_thin_sunscreen_lets_through_the_root():
         ({"unit": "SUN", "latitude": 1e308}, "latitude is 1e\\+308"),
         ({"unit": "SUN", "month": 13}, "month is 13; allowed is 1 to 12"),
         ({"sunscreen": True, "sunscreen_amount": float("nan")}, "nan"),
-        ({"unit": "GY"}, "unit of an exposure is 'GY'; allowed are SED, MMD, UV_INDEX and SUN"),
+        (
+            {"unit": "GY"},
+            "unit of a time in the sun is 'GY'; allowed are SED, MMD, UV_INDEX and SUN",
+        ),
     ],
 )
 def test_what_cannot_be_is_named(changes, sentence):

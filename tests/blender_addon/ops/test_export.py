@@ -128,7 +128,7 @@ def test_what_cannot_be_exported_is_named(table_path, tmp_path):
         with pytest.raises(RuntimeError, match=sentence):
             exported(path)
     obj.skin_tan.exposures[0].dose = float("nan")
-    with pytest.raises(RuntimeError, match="dose of an exposure is nan SED; allowed is 0 to"):
+    with pytest.raises(RuntimeError, match="dose of a time in the sun is nan SED; allowed is 0 to"):
         exported(tmp_path / "sun.csv")
     assert not list(tmp_path.iterdir())
 

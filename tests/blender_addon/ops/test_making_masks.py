@@ -342,7 +342,7 @@ def test_painting_has_something_to_paint_on():
     body.data.clear_geometry()
     with pytest.raises(RuntimeError, match="'Icosphere' has no faces, so there is nothing to"):
         bpy.ops.skin_tan.paint_mask()
-    with pytest.raises(RuntimeError, match="has no exposure that could have a mask"):
+    with pytest.raises(RuntimeError, match="has no time in the sun that could have a mask"):
         bpy.ops.skin_tan.paint_mask(target="EXPOSURE")
 
 

@@ -63,7 +63,7 @@ def test_what_a_panel_may_not_show_is_told(table_path, capfd):
     apply(obj)
     bpy.ops.skin_tan.list_materials()
     said = capfd.readouterr().out
-    assert "The skin is of type IV, with the biology of its own." in said
+    assert "The skin is of type IV, with that type's usual melanin and blood." in said
     assert "Melanin, blood, oxygen and thickness are those of the skin type." in said
     assert "Added a time in the sun on day 1, with what is set of the last one." in said
     assert "Ticked as skin: 'Skin Tan Body'." in said

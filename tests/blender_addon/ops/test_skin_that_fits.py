@@ -41,7 +41,8 @@ def test_from_a_colour(body, capfd):
     assert bpy.ops.skin_tan.match_colour(colour=type_colours()["II"] * 0.97) == {"FINISHED"}
     assert body.skin_tan.skin == "II"
     said = capfd.readouterr().out
-    assert "Type II is nearest, 0." in said and "CIEDE2000 away; with melanin 1.0" in said
+    assert "Type II is nearest: colour distance 0." in said
+    assert " after adjusting melanin and blood (1 is just seen)." in said
     assert bpy.ops.skin_tan.match_colour(colour=type_colours()["V"], adjust=False) == {"FINISHED"}
     assert body.skin_tan.skin == "V" and not body.skin_tan.biology.is_changed()
 

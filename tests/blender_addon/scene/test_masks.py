@@ -284,7 +284,7 @@ def test_an_exposure_s_own_mask(body, tmp_path):
     assert rendered(body, tmp_path) == pytest.approx(share, abs=1e-6)
     body.skin_tan.exposures[1].own_mask = True
     body.skin_tan.exposures[1].mask.source = "absent"
-    with pytest.raises(RuntimeError, match="The mesh has no 'absent' any more"):
+    with pytest.raises(RuntimeError, match="The mesh has no 'absent', which is set as a mask"):
         apply(body)
 
 
@@ -321,15 +321,15 @@ def test_what_is_gone_is_told(body):
     image = add_image(body)
     mask = body.skin_tan.mask
     mask.source, mask.uv_map = "Photo", "Absent"
-    with pytest.raises(RuntimeError, match="no UV map 'Absent' any more; allowed are: Active, M"):
+    with pytest.raises(RuntimeError, match="no UV map 'Absent'; allowed are: Active, M"):
         apply(body)
     bpy.data.images.remove(image)
-    with pytest.raises(RuntimeError, match="no 'Photo' any more"):
+    with pytest.raises(RuntimeError, match="no 'Photo', which is set as a mask"):
         apply(body)
     group = add_group(body)
     mask.source = "Skirt"
     group.name = "Dress"
-    with pytest.raises(RuntimeError, match="no 'Skirt' any more, which is its mask; .*: Dress"):
+    with pytest.raises(RuntimeError, match="no 'Skirt', which is set as a mask; .*: Dress"):
         apply(body)
 
 

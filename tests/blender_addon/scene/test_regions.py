@@ -285,7 +285,7 @@ def test_an_error_leaves_all_as_it_was(table_path, monkeypatch):
 def test_a_mask_that_is_gone_is_told(table_path):
     obj = tan_object(table_path)
     add_region(obj, "lips").mask.source = "mouth"
-    with pytest.raises(RuntimeError, match="no 'mouth' any more"):
+    with pytest.raises(RuntimeError, match="no 'mouth', which is set as a mask"):
         apply(obj)
 
 

@@ -159,7 +159,7 @@ def test_more_than_eight_masks_are_refused(body):
         add_mask(body, np.full(4 * len(SHARES), number / 9.0), name)
         exposure = settings.exposures.add()
         exposure.own_mask, exposure.mask.source = True, name
-    with pytest.raises(RuntimeError, match="exposures have 13 masks; allowed are 1 to 8"):
+    with pytest.raises(RuntimeError, match="times in the sun have 13 masks; allowed are 1 to 8"):
         apply(body)
 
 

@@ -130,7 +130,7 @@ def test_a_region_says_where_it_lies(table_path):
     obj.skin_tan.regions[0].painted = True
     assert "No mask: it is nowhere" in drawn()
     bpy.ops.skin_tan.add_region(kind="LIPS", mask="mouth")
-    assert "The mesh no longer has this mask:" in drawn()
+    assert "The mesh does not have this mask:" in drawn()
 
 
 @pytest.mark.parametrize(
@@ -241,7 +241,7 @@ def test_a_unit_of_a_later_version_does_not_stop_the_panel(table_path):
     exposure = tan_object(table_path).skin_tan.exposures[0]
     unknown(exposure)
     labels = drawn()
-    assert "Unknown unit" in labels and "No dose: unit of an exposure is ''" in labels
+    assert "Unknown unit" in labels and "No dose: unit of a time in the sun is ''" in labels
 
 
 def unknown(exposure) -> None:
@@ -285,7 +285,7 @@ def test_the_view_of_the_file_is_pressed(table_path):
 
 def test_a_mask_that_is_gone_is_marked(table_path):
     obj = tan_object(table_path, [0.0, 1.0])
-    gone = "The mesh no longer has this mask:"
+    gone = "The mesh does not have this mask:"
     assert gone not in drawn()
     obj.data.attributes["sun"].name = "shade"
     assert gone in drawn()

@@ -145,7 +145,7 @@ class Skin:
                 ends.setdefault(tree, {}).setdefault(end)
         for tree, inputs in ends.items():
             recolour.insert(tree, inputs, self.group, changes)
-        self._made += made
+        self._made += [*made, *(self._copies.get(group, group) for group in around)]
         return [f"Recoloured {names(made)}."]
 
     def _own_groups(self) -> list[Any]:

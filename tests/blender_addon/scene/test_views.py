@@ -358,3 +358,17 @@ def test_a_material_that_is_recoloured_in_a_view_shows_it(table_path, bodies):
     assert recolour.inserted(tree, recolour.INSTEAD) == [node]
     switch("VISIBLE")
     assert recolour.inserted(tree, recolour.INSTEAD) == []
+
+
+def test_a_first_apply_in_a_view_shows_it_in_groups_too(table_path):
+    switch("NM1650")
+    obj = body_in(table_path, [grouped("skin"), layered("ears")])
+    apply(obj)
+    trees = [*(slot.material.node_tree for slot in obj.material_slots), *bpy.data.node_groups]
+    shown = [contents(tree) for tree in trees if recolour.inserted(tree)]
+    switch("NM365")
+    switch("NM1650")
+    assert [contents(tree) for tree in trees if recolour.inserted(tree)] == shown
+    assert len(shown) > 2 and all(
+        recolour.inserted(t, "instead") for t in trees if recolour.inserted(t)
+    )

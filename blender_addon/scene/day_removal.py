@@ -88,6 +88,8 @@ def _leave(obj: bpy.types.Object, animation: Any, changes: Changes) -> None:
         changes.at_the_end(partial(_empty, own, own.slots[slot.identifier]))
     else:
         assign(animation, None, None)
+        if ANIMATION in str(action.get(MADE, "")).split():
+            changes.at_the_end(partial(_clear_empty, obj))
 
 
 def _is_same_but_day(bag: Any, former: Any, slot: Any) -> bool:
@@ -142,9 +144,17 @@ def _take_out(obj: bpy.types.Object, action: Any, slot: Any) -> None:
             del copy[FORMER]
     animation: Any = obj.animation_data
     animation.action = None
-    if ANIMATION in made and not (animation.nla_tracks or animation.drivers):
-        obj.animation_data_clear()
+    if ANIMATION in made:
+        _clear_empty(obj)
     _remove_unused(action)
+
+
+def _clear_empty(obj: bpy.types.Object) -> None:
+    animation = obj.animation_data
+    if animation is not None and not (
+        animation.action or animation.nla_tracks or animation.drivers
+    ):
+        obj.animation_data_clear()
 
 
 def _remove_unused(action: bpy.types.Action) -> None:

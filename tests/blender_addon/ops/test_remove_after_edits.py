@@ -228,3 +228,14 @@ def test_a_deleted_node_in_a_view_leaves_the_texture_linked():
     deleted(tree, "factor", "instead")
     remove(obj)
     assert state() == before
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_a_linked_duplicate_without_an_apply_leaves_no_empty_animation(table_path, order):
+    obj = body(table_path)
+    apply(obj)
+    bodies = obj, duplicate(obj, linked=True)
+    for index in order:
+        remove(bodies[index])
+    assert [one.animation_data for one in bodies] == [None, None]
+    assert not bpy.data.actions

@@ -17,7 +17,7 @@ from .model.response import holds_redness
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
-from .props import SkinTanSettings, settings_of
+from .props import SkinTanExposure, SkinTanSettings, settings_of
 from .props.region import is_shown
 from .scene import (
     detail,
@@ -65,6 +65,7 @@ def apply_tan(
     obj = tannable(obj)
     settings = settings_of(obj)
     _require_masks(obj)
+    _require_sun(settings)
     timeline.check_day_property(obj)
     unit = size.body_unit(obj, scene)
     values = settings.values()
@@ -250,6 +251,22 @@ def _require_masks(obj: bpy.types.Object) -> None:
         masks.require_usable(obj, mask)
 
 
+def _require_sun(settings: SkinTanSettings) -> None:
+    """Raise InputError, with its name, where a time in the sun has no such date or hours."""
+    for number, exposure in enumerate(settings.exposures, 1):
+        if exposure.enabled and exposure.unit == "SUN":
+            try:
+                doses.require_date(exposure.month, exposure.day_of_month)
+                doses.require_hours(exposure.from_hour, exposure.to_hour)
+            except InputError as error:
+                called = _called(exposure, number)
+                raise InputError(f"A time in the sun cannot be used, {called}: {error}") from error
+
+
+def _called(exposure: SkinTanExposure, number: int) -> str:
+    return repr(exposure.name) if exposure.name else f"time in the sun {number}"
+
+
 def _regions(settings: SkinTanSettings, values: TanSettings) -> list[regions.Placed]:
     """The regions of settings, as nodes show them."""
     placed = []
@@ -327,7 +344,7 @@ def _on_regions(settings: SkinTanSettings) -> list[str]:
 def _on_own_masks(settings: SkinTanSettings) -> list[str]:
     """Which times in the sun are to have a mask of their own and have none."""
     without = [
-        repr(exposure.name) if exposure.name else f"time in the sun {number}"
+        _called(exposure, number)
         for number, exposure in enumerate(settings.exposures, 1)
         if exposure.enabled and exposure.own_mask and not masks.Mask.of(exposure.mask)
     ]

@@ -1,5 +1,6 @@
 """Hourly doses of ultraviolet for the tanning model, from the exposures that an artist sets."""
 
+import calendar
 import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -64,7 +65,7 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
     if exposure.unit == "SUN":
         absorbed = absorptance(provenance)
         from_midnight = _of_a_day(
-            _date(exposure.month, exposure.day_of_month),
+            require_date(exposure.month, exposure.day_of_month),
             exposure.from_hour,
             exposure.to_hour,
             exposure.latitude,
@@ -111,13 +112,29 @@ def begin(exposure: Exposure) -> int:
     return int(np.floor(24.0 * exposure.day + 0.5))
 
 
-def _date(month: int, day: int) -> date:
+def require_date(month: int, day: int) -> date:
+    """A day of any year.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
     require_whole("month", month, 1, 12)
-    try:
-        return date(ANY_YEAR, month, require_whole("day of the month", day, 1, 31))
-    except InputError:
-        raise
-    except ValueError as error:
+    require_whole("day of the month", day, 1, 31)
+    last = calendar.monthrange(ANY_YEAR, month)[1]
+    if day > last:
         raise InputError(
-            f"day of the month is {day}, which month {month} lacks; allowed is a date."
-        ) from error
+            f"day of the month is {day}, which month {month} lacks; allowed is 1 to {last}."
+        )
+    return date(ANY_YEAR, month, day)
+
+
+def require_hours(first: float, last: float) -> None:
+    """Raise InputError unless hours of sun, 0 to 24, ascend."""
+    require_range("hour of sun", first, 0.0, 24.0)
+    require_range("hour of sun", last, 0.0, 24.0)
+    if not first < last:
+        raise InputError(
+            f"sun is given from {first:g} to {last:g} h; allowed is an end after its start, to 24."
+        )

@@ -20,7 +20,16 @@ from hylios.readers.quantities import Quantity
 from hylios.readers.table import Table, columns_of, table_of
 from hylios.readers.text import lines_of, name_of
 
-from .settings import DOSE_LIMIT, DURATION_LIMIT, FACTOR_LIMIT, LAST_DAY_LIMIT, MULTIPLE_LIMIT
+from .doses import require_date, require_hours
+from .settings import (
+    DOSE_LIMIT,
+    DURATION_LIMIT,
+    FACTOR_LIMIT,
+    LAST_DAY_LIMIT,
+    MULTIPLE_LIMIT,
+    USUAL_DATE,
+    USUAL_HOURS,
+)
 
 TITLES = {
     "hours": ("duration", 0.0, DURATION_LIMIT),
@@ -111,7 +120,8 @@ def read_exposures(path: Path) -> ReadSchedule:
     Raises
     ------
     InputError
-        If the file cannot be read, or a cell has no such value, in a sentence with its line.
+        If the file cannot be read or has no row, or a cell has no such value, in a sentence with
+        its line.
     """
     lines, name = lines_of(path), name_of(path)
     if all(any(title in line for line in lines) for title in COLUMNS[:2]):
@@ -125,6 +135,8 @@ def read_exposures(path: Path) -> ReadSchedule:
         given = [{} for _ in days]
     else:
         raise InputError(f"{name} has no column amount or SED; needed is one of them.")
+    if not days:
+        raise InputError(f"{name} holds no time in the sun, only names of columns.")
     read = [
         {"day": day, **more, **_settings(table, row, more)}
         for row, (day, more) in enumerate(zip(days, given, strict=True))
@@ -179,11 +191,23 @@ def _settings(table: Table, row: int, given: Mapping[str, Any]) -> dict[str, Any
         if unit in AMOUNTS:
             setting, largest = AMOUNTS[unit]
             read[setting] = _number(where, "amount", cells["amount"], 0.0, largest)
+        elif unit == "SUN":
+            _require_sun(where, read)
     if "on" in cells:
         read["enabled"] = _one_of(where, "on", cells["on"], ON | OFF)
     if cells.get("name"):
         read["name"] = cells["name"]
     return read
+
+
+def _require_sun(where: str, read: Mapping[str, Any]) -> None:
+    month, day = USUAL_DATE
+    first, last = USUAL_HOURS
+    try:
+        require_date(read.get("month", month), read.get("day_of_month", day))
+        require_hours(read.get("from_hour", first), read.get("to_hour", last))
+    except InputError as error:
+        raise InputError(f"{where} no such sun: {error}") from error
 
 
 def _number(where: str, title: str, cell: str, least: float, largest: float) -> float:

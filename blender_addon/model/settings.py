@@ -19,6 +19,9 @@ DOSE_LIMIT, MULTIPLE_LIMIT = 1000.0, 100.0
 DURATION_LIMIT, FACTOR_LIMIT = 48.0, 1000.0
 """Most hours under a UV index, and largest SPF, of one exposure."""
 
+USUAL_DATE, USUAL_HOURS = (7, 15), (11.0, 15.0)
+"""Month and day, and hours of the day, of sun for which none are given."""
+
 LEAST_SCALE, LARGEST_SCALE = 1e-4, 1e4
 """Range of how many times life-size a model is."""
 

@@ -64,7 +64,7 @@ class _SavesCsv(ExportHelper):
 class SKIN_TAN_OT_export_exposures(_SavesCsv, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.export_exposures"
     bl_label = "Export CSV"
-    bl_description = "Save the times in the sun as CSV, with all their settings but the masks"
+    bl_description = "Save what counts of the times in the sun as CSV, without the masks"
 
     def text(self, obj: bpy.types.Object) -> str:
         return exposures_text(settings_of(obj).exposures)

@@ -9,6 +9,8 @@ from ..model.settings import (
     FACTOR_LIMIT,
     LAST_DAY_LIMIT,
     MULTIPLE_LIMIT,
+    USUAL_DATE,
+    USUAL_HOURS,
 )
 from .mask import SkinTanMask, show_mask
 
@@ -90,12 +92,16 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         step=100,
         precision=1,
     )
-    month: IntProperty(name="Month", description="Month of the year", default=7, min=1, max=12)
-    day_of_month: IntProperty(name="Day", description="Day of the month", default=15, min=1, max=31)
+    month: IntProperty(
+        name="Month", description="Month of the year", default=USUAL_DATE[0], min=1, max=12
+    )
+    day_of_month: IntProperty(
+        name="Day", description="Day of the month", default=USUAL_DATE[1], min=1, max=31
+    )
     from_hour: FloatProperty(
         name="From",
         description="Start, in hours of solar time: the sun stands highest at 12",
-        default=11.0,
+        default=USUAL_HOURS[0],
         min=0.0,
         max=24.0,
         step=50,
@@ -104,7 +110,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     to_hour: FloatProperty(
         name="To",
         description="End, in hours of solar time: the sun stands highest at 12",
-        default=15.0,
+        default=USUAL_HOURS[1],
         min=0.0,
         max=24.0,
         step=50,

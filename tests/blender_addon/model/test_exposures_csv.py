@@ -38,7 +38,7 @@ def random_exposure(random) -> SimpleNamespace:
         duration=between(0.0, 48.0),
         latitude=between(-90.0, 90.0),
         month=int(random.integers(1, 13)),
-        day_of_month=int(random.integers(1, 32)),
+        day_of_month=int(random.integers(1, 29)),
         from_hour=between(0.0, 12.0),
         to_hour=between(12.0, 24.0),
         sunscreen=bool(random.random() < 0.5),
@@ -76,7 +76,7 @@ def as_kept(settings: dict) -> dict:
 @pytest.mark.parametrize("seed", range(25))
 def test_what_is_written_comes_back(seed, tmp_path):
     random = np.random.default_rng(seed)
-    exposures = [random_exposure(random) for _ in range(random.integers(0, 8))]
+    exposures = [random_exposure(random) for _ in range(random.integers(1, 8))]
     path = tmp_path / "exposures.csv"
     path.write_text(exposures_text(exposures), encoding="utf-8")
     read = read_exposures(path)
@@ -145,6 +145,16 @@ def test_an_exported_schedule(tmp_path):
         ("day,amount,unit\n0,x,MMD\n", "in line 2 'x' as amount; allowed is 0 to 100"),
         ("day,amount,spf\n0,1,0.5\n", "in line 2 '0.5' as spf; allowed is 1 to 1000"),
         ("day,amount,on\n0,1,maybe\n", "in line 2 'maybe' as on; allowed are yes, on"),
+        ("day,SED\n", "holds no time in the sun"),
+        (exposures_text([]), "holds no time in the sun"),
+        (
+            "day,unit,amount,month,day_of_month\n0,sed,1,2,30\n1,sun,,2,30\n",
+            "3 no such sun: day of the month is 30, which month 2 lacks; allowed is 1 to 28",
+        ),
+        (
+            "day,unit,amount,from_hour,to_hour\n0,sun,,12,10\n",
+            "2 no such sun: sun is given from 12 to 10 h; allowed is an end after its start",
+        ),
         (
             "day,amount,unit,month\n0,,sun,6.5\n",
             "'6.5' as month; allowed is whole numbers from 1 to 12",

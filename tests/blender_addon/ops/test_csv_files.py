@@ -47,3 +47,10 @@ def test_a_bad_file_changes_nothing(body, tmp_path):
     with pytest.raises(RuntimeError, match="sun.csv"):
         bpy.ops.skin_tan.import_exposures(filepath=str(path))
     assert shown(body) == before
+
+
+def test_apply_names_the_time_in_the_sun_that_cannot_be(body):
+    first = body.skin_tan.exposures[0]
+    first.unit, first.name, first.month, first.day_of_month = "SUN", "Carnival", 2, 30
+    with pytest.raises(RuntimeError, match="used, 'Carnival': day of the month is 30, .* 1 to 28"):
+        bpy.ops.skin_tan.apply()

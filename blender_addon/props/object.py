@@ -193,7 +193,8 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     materials: CollectionProperty(type=SkinTanMaterial)
     new_material: BoolProperty(
         name="New Material",
-        description="Put a new skin in place of the ticked materials. Remove Tan gives them back",
+        description="Put a new skin in place of the ticked materials that have no tan yet. Remove "
+        "Tan gives them back",
     )
     own_colour: BoolProperty(
         name="Tan from Own Colour",

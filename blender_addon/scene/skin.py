@@ -90,7 +90,24 @@ class Skin:
         if unticked:
             said += removal.give_back(self.obj, unticked, self.users, changes)
         remarks = (recolour.remarks(block) for block, tans in ticked.items() if tans)
-        return [*said, *itertools.chain.from_iterable(remarks)]
+        return [*said, *itertools.chain.from_iterable(remarks), *self._on_replacing(updated)]
+
+    def _on_replacing(self, updated: list[bpy.types.Material]) -> list[str]:
+        """Where New Material was switched after materials had got their tan."""
+        shown = [self._copies.get(block, block) for block in updated]
+        recoloured = [block for block in shown if recolour.is_in(block)]
+        new = [block for block in shown if MADE in block and block.get(FORMER) is not None]
+        if self.replacing and recoloured:
+            return [
+                f"New Material is on, but {names(recoloured)} had a tan before; Remove Tan, then "
+                "Apply Tan puts in a new one."
+            ]
+        if new and not self.replacing:
+            return [
+                f"New Material is off, but {names(new)} took the place of yours before; Remove "
+                "Tan, then Apply Tan recolours yours."
+            ]
+        return []
 
     def set_viewport_colour(self, colour: Iterable[float], changes: Changes) -> None:
         """Have materials of ours show a linear colour in Solid view, unless the artist set one."""

@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import pytest
+from artist_skins import plain, wear
 from scenes import add_mask, apply, tan_object
 
 
@@ -88,3 +89,17 @@ def test_an_empty_own_mask_is_told(body, capfd, several, name, called):
     assert sentence in said_by_apply(body, capfd)
     exposure.enabled = False
     assert "Own Mask" not in said_by_apply(body, capfd)
+
+
+def test_a_switch_of_new_material_after_the_first_apply_is_told(table_path, capfd):
+    obj = tan_object(table_path)
+    wear(obj, [plain("skin")])
+    for is_new in (True, False):
+        obj.skin_tan.new_material = is_new
+        assert "New Material" not in said_by_apply(obj, capfd)
+        material = obj.material_slots[0].material
+        obj.skin_tan.new_material = not is_new
+        said = said_by_apply(obj, capfd)
+        assert f"New Material is {'off' if is_new else 'on'}, but {material.name!r}" in said
+        assert obj.material_slots[0].material == material
+        bpy.ops.skin_tan.remove()

@@ -40,6 +40,7 @@ from .scene.ownership import is_local, names
 from .scene.plan import LOOK
 from .scene.region_nodes import Region, Spots
 from .scene.several import made_images as made_of_masks
+from .scene.trees import tan_groups, tree_of
 from .views import keep_view, remember_source
 
 
@@ -321,6 +322,12 @@ def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
     """Why no tan can be seen on an object, or it can be where it should not."""
     if not obj.modifiers and obj.mode != "EDIT" and not cast(bpy.types.Mesh, obj.data).polygons:
         return [f"{obj.name!r} has no faces, so no skin can be seen."]
+    if slots.is_set_elsewhere(obj):
+        tanned = [block for block in slots.materials_of(obj) if any(tan_groups(tree_of(block)))]
+        return [
+            f"No tan can be seen: geometry nodes set other materials on {obj.name!r}; set "
+            f"{names(tanned)} there."
+        ]
     if not settings_of(obj).exposures:
         return [f"{obj.name!r} has no time in the sun, so nothing tans; add one with +."]
     if not values.exposures:

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from .changes import Changes
+from .masks import current_depsgraph, evaluated_mesh
 from .ownership import is_local, remembered
 from .painted import areas_of_faces, is_like_skin, painted_colour
 from .plan import DAY_PROPERTY
@@ -71,6 +72,24 @@ def shown_trees(obj: bpy.types.Object, group: bpy.types.NodeTree) -> Iterator[bp
     for block in chain(materials_of(obj), group):
         if block != group and is_local(block):
             yield tree_of(block)
+
+
+def is_set_elsewhere(obj: bpy.types.Object) -> bool:
+    """Whether geometry nodes put materials without a tan on all faces of an object."""
+    if not any(modifier.type == "NODES" for modifier in obj.modifiers):
+        return False
+    shown = evaluated_mesh(obj, current_depsgraph())
+    if shown is None:
+        return False
+    polygons: Any = shown.polygons
+    indices = np.zeros(len(polygons), np.int32)
+    polygons.foreach_get("material_index", indices)
+    held = [material for material in shown.materials]
+    last = len(held) - 1
+    seen = [held[index] for index in np.unique(indices.clip(0, last))] if held else []
+    return any(seen) and not any(
+        any(tan_groups(tree_of(material.original))) for material in seen if material is not None
+    )
 
 
 def is_skin_by_name(name: str) -> bool | None:

@@ -6,6 +6,8 @@ import pytest
 from artist_skins import plain, wear
 from scenes import add_mask, apply, tan_object
 
+from blender_addon.scene import materials
+
 
 @pytest.fixture
 def body(table_path):
@@ -103,3 +105,20 @@ def test_a_switch_of_new_material_after_the_first_apply_is_told(table_path, capf
         assert f"New Material is {'off' if is_new else 'on'}, but {material.name!r}" in said
         assert obj.material_slots[0].material == material
         bpy.ops.skin_tan.remove()
+
+
+def test_materials_that_geometry_nodes_set_are_told(body, capfd):
+    tree = bpy.data.node_groups.new("Skin", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Mesh", in_out=way, socket_type="NodeSocketGeometry")
+    kinds = "NodeGroupInput", "GeometryNodeSetMaterial", "NodeGroupOutput"
+    start, setting, end = (tree.nodes.new(kind) for kind in kinds)
+    setting.inputs["Material"].default_value = plain("skin")
+    tree.links.new(start.outputs[0], setting.inputs[0])
+    tree.links.new(setting.outputs[0], end.inputs[0])
+    body.modifiers.new("Skin", "NODES").node_group = tree
+    told = f"geometry nodes set other materials on 'Body'; set '{materials.PREFIX}Body' there."
+    assert told in said_by_apply(body, capfd)
+    setting.inputs["Material"].default_value = body.material_slots[0].material
+    assert "geometry nodes" not in said_by_apply(body, capfd)
+    assert "Updated" in said_by_apply(body, capfd) and len(bpy.data.materials) == 2

@@ -5,6 +5,8 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from hylios.errors import InputError
+
 from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
 from ..props.copying import copy_values
 from .active import active_settings, can_edit
@@ -74,7 +76,7 @@ class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
     bl_description = "Copy the selected time in the sun, on the same day"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context):
@@ -82,7 +84,11 @@ class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        source = index_of(settings.exposures, settings.exposure_index, self.index)
+        try:
+            source = index_of(settings.exposures, settings.exposure_index, self.index)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         added = settings.exposures.add()
         copy_values(settings.exposures[source], added)
         settings.exposures.move(len(settings.exposures) - 1, source + 1)
@@ -99,7 +105,7 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
     direction: EnumProperty(
         name="Direction", items=(("UP", "Up", ""), ("DOWN", "Down", "")), default="UP"
     )
-    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context):
@@ -107,7 +113,11 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        source = index_of(settings.exposures, settings.exposure_index, self.index)
+        try:
+            source = index_of(settings.exposures, settings.exposure_index, self.index)
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         target = source + (-1 if self.direction == "UP" else 1)
         if not 0 <= target < len(settings.exposures):
             return {"CANCELLED"}
@@ -122,7 +132,7 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
     bl_description = "Remove the selected time in the sun"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context):
@@ -130,7 +140,11 @@ class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        settings.exposure_index = after_removing(
-            settings.exposures, settings.exposure_index, self.index
-        )
+        try:
+            settings.exposure_index = after_removing(
+                settings.exposures, settings.exposure_index, self.index
+            )
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}

@@ -3,6 +3,8 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from hylios.errors import InputError
+
 from ..model.regions import MOST_STRENGTH
 from ..props.region import KIND_ITEMS
 from .active import active_settings, can_edit
@@ -51,7 +53,7 @@ class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
     bl_description = "Remove the selected region; its mask stays on the mesh"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", default=SELECTED, min=SELECTED, options={"SKIP_SAVE"})
+    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context):
@@ -62,5 +64,11 @@ class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
 
     def execute(self, context):
         settings = active_settings(context)
-        settings.region_index = after_removing(settings.regions, settings.region_index, self.index)
+        try:
+            settings.region_index = after_removing(
+                settings.regions, settings.region_index, self.index
+            )
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
         return {"FINISHED"}

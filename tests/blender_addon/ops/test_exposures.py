@@ -58,3 +58,12 @@ def test_one_that_is_off_does_not_count(body):
     body.skin_tan.exposures.remove(1)
     apply(body)
     assert look(body) == one != both
+
+
+@pytest.mark.parametrize("index", [1, 99, -7])
+def test_an_index_that_is_not_in_a_list_is_refused(body, index):
+    body.skin_tan.regions.add()
+    for name in ("remove_exposure", "duplicate_exposure", "move_exposure", "remove_region"):
+        with pytest.raises(RuntimeError, match=f"index is {index}; allowed is 0 to 0"):
+            getattr(bpy.ops.skin_tan, name)(index=index)
+    assert len(body.skin_tan.exposures) == len(body.skin_tan.regions) == 1

@@ -40,13 +40,17 @@ def remove_day(obj: bpy.types.Object, changes: Changes, own: str = "") -> list[s
     animation: Any = obj.animation_data
     if animation is not None and _curve(animation) is not None:
         _leave(obj, animation, changes)
-    for strip in strips(obj):
-        if _curve(strip) is not None and not _others(obj, strip.action_slot):
+    stay = [strip for strip in strips(obj) if _curve(strip) is not None]
+    said = [f"The strip {strip.name!r} of the NLA, which held the day, stays." for strip in stay]
+    for strip in stay:
+        if not _others(obj, strip.action_slot):
             changes.at_the_end(partial(_empty, strip.action, strip.action_slot))
     if shown_day(obj) is None and DAY_PROPERTY in obj:
-        return [f"The property {DAY_PROPERTY!r} holds no day and stays."]
+        return [*said, f"The property {DAY_PROPERTY!r} holds no day and stays."]
     changes.at_the_end(partial(_remove_property, obj, own))
-    return [f"The property {DAY_PROPERTY!r} is again what it was before Apply."] if own else []
+    if own:
+        said.append(f"The property {DAY_PROPERTY!r} is again what it was before Apply.")
+    return said
 
 
 def _remove_property(obj: bpy.types.Object, own: str) -> None:

@@ -250,3 +250,14 @@ def test_an_artists_own_property_of_that_name_stays(table_path):
     shown = obj.id_properties_ui("tan_day").as_dict()
     assert (obj["tan_day"], shown["description"], shown["max"]) == (7.0, "Mine", 9.0)
     assert not obj.animation_data and not bpy.ops.skin_tan.remove.poll()
+
+
+def test_a_strip_that_stays_is_said(table_path, capfd):
+    obj = tan_object(table_path)
+    apply(obj)
+    animation = obj.animation_data
+    animation.nla_tracks.new().strips.new("days", 1, animation.action)
+    animation.action = None
+    bpy.ops.skin_tan.remove()
+    assert "The strip 'days' of the NLA, which held the day, stays" in capfd.readouterr().out
+    assert [strip.name for track in animation.nla_tracks for strip in track.strips] == ["days"]

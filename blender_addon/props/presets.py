@@ -4,7 +4,14 @@ from collections.abc import Collection, Iterator
 
 import bpy
 
-HEADER = "import bpy\n\nsettings = bpy.context.view_layer.objects.active.skin_tan\n\n"
+HEADER = """import bpy
+
+obj = bpy.context.view_layer.objects.active
+if obj is None or obj.type != "MESH":
+    raise RuntimeError("No mesh object is active; select the one that gets the preset.")
+settings = obj.skin_tan
+
+"""
 
 SKIN = ("skin", "table_path", "biology", "own_minimal_doses", "mmd", "med")
 SCHEDULE = ("first_day", "last_day", "exposures")

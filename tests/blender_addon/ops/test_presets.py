@@ -81,3 +81,13 @@ def test_blender_lists_them():
     folders = bpy.utils.preset_paths("skin_tan/schedule")
     assert any(Path(folder).samefile(SHIPPED[0].parent) for folder in folders)
     assert len(SHIPPED) >= 4
+
+
+def test_without_an_active_mesh_a_preset_says_what_it_needs(table_path, user_presets):
+    tan_object(table_path)
+    bpy.ops.skin_tan.schedule_preset_add(name="Mine")
+    own = next((user_presets / "schedule").iterdir())
+    bpy.context.view_layer.objects.active = None
+    for file in (own, *SHIPPED):
+        with pytest.raises(RuntimeError, match="No mesh object is active"):
+            execute(file, "SKIN_TAN_PT_schedule_presets")

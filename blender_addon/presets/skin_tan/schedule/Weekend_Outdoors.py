@@ -1,6 +1,9 @@
 import bpy
 
-settings = bpy.context.view_layer.objects.active.skin_tan
+obj = bpy.context.view_layer.objects.active
+if obj is None or obj.type != "MESH":
+    raise RuntimeError("No mesh object is active; select the one that gets the preset.")
+settings = obj.skin_tan
 
 settings.first_day = 0.0
 settings.last_day = 21.0

@@ -10,7 +10,7 @@ import numpy as np
 from hylios.errors import InputError
 
 from .props import SkinTanMask, SkinTanRegionMask, settings_of
-from .scene import clothes, mask_colours, mask_values, masks, posed, vertex_groups
+from .scene import clothes, mask_colours, mask_values, masks, painted, posed, vertex_groups
 from .scene.changes import Changes
 from .scene.ownership import names
 from .scene.size import body_unit
@@ -27,6 +27,8 @@ class ClothesRequest:
         Of a new mask.
     reach, inside, softness : float
         In millimetres: as in `scene.clothes.Reach`.
+    left_out : tuple of Object
+        What an artist may have selected as clothes, and is no mesh.
     """
 
     garments: tuple[bpy.types.Object, ...]
@@ -34,6 +36,7 @@ class ClothesRequest:
     reach: float = 30.0
     inside: float = 5.0
     softness: float = 4.0
+    left_out: tuple[bpy.types.Object, ...] = ()
 
 
 def mask_for_brush(
@@ -68,6 +71,7 @@ def mask_for_brush(
             obj.vertex_groups.active_index = obj.vertex_groups[source.name].index
             return kind, f"{_legend(mask, words, 'Weight 0', '1')}: painting {source.name!r}."
         if source is not None and kind == "IMAGE":
+            _require_no_skin(obj, mask)
             _activate_image(mesh, mask)
             return kind, f"{_legend(mask, words)}: painting {source.name!r}."
         return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
@@ -93,7 +97,10 @@ def from_clothes(
         If there is no garment, or an object cannot be used.
     """
     if not request.garments:
-        raise InputError("No clothes are selected; select garments, and last the body.")
+        raise InputError(
+            _on_left_out(request) or "No clothes are selected; select garments, and last the body."
+        )
+    masks.require_name(request.name)
     mesh = cast(bpy.types.Mesh, obj.data)
     if not mesh.polygons:
         raise InputError(f"{obj.name!r} has no faces, so nothing on it can be covered.")
@@ -118,12 +125,31 @@ def from_clothes(
     mask_colours.activate(mesh, name)
     _set(settings, name)
     covered = 1.0 - float(shares.mean())
+    said = f"The mask {name!r} covers {100 * covered:.0f} % of the points."
     if covered == 0.0:
-        return (
+        said = (
             f"No skin lies within {request.reach:g} mm under {names(request.garments)}: the mask "
             f"{name!r} is all bare."
         )
-    return f"The mask {name!r} covers {100 * covered:.0f} % of the points."
+    return f"{said} {_on_left_out(request)}".rstrip()
+
+
+def _on_left_out(request: ClothesRequest) -> str:
+    if not request.left_out:
+        return ""
+    return (
+        f"Only meshes count as clothes, so {names(request.left_out)} did not: convert curves "
+        "(Object > Convert), make instances real (Object > Apply)."
+    )
+
+
+def _require_no_skin(obj: bpy.types.Object, mask: masks.Mask) -> None:
+    """Raise InputError where a brush on a mask would paint the skin itself."""
+    if mask.image in painted.painted_images(obj):
+        raise InputError(
+            f"The mask {mask.image.name!r} is the colour of the skin, which Paint Mask would paint "
+            "over; choose another mask, or empty the field for a new one."
+        )
 
 
 def _words(settings: SkinTanMask | SkinTanRegionMask) -> tuple[str, str]:

@@ -18,13 +18,18 @@ def active_object(context: bpy.types.Context) -> bpy.types.Object | None:
     return active
 
 
-def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
-    """Selected mesh objects, or those that `temp_override` names; works without a window too."""
+def selected_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Selected objects, or those that `temp_override` names; works without a window too."""
     layer = cast(Any, context).view_layer
     selected = getattr(context, "selected_objects", None)
     if selected is None:
         selected = layer.objects.selected if layer else ()
-    return [obj for obj in selected if obj.type == "MESH"]
+    return list(selected)
+
+
+def selected_meshes(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Those of `selected_objects` that are meshes."""
+    return [obj for obj in selected_objects(context) if obj.type == "MESH"]
 
 
 def is_named(context: bpy.types.Context) -> bool:

@@ -12,10 +12,13 @@ from hylios.errors import InputError
 from ..apply import kind_of, tannable
 from ..masking import ClothesRequest, from_clothes, mask_for_brush
 from ..props import SkinTanMask, SkinTanRegion, settings_of
-from .active import active_object, current_scene, has_mesh, selected_meshes
+from .active import active_object, current_scene, has_mesh, selected_objects
 
 STEP_SECONDS = 0.05
 """So long From Clothes computes before it looks for Esc."""
+
+SURFACES = ("CURVE", "SURFACE", "FONT", "META")
+"""Types of objects that may be modelled as clothes, and are no meshes."""
 
 MODES = {"COLOUR": "VERTEX_PAINT", "GROUP": "WEIGHT_PAINT", "IMAGE": "TEXTURE_PAINT"}
 
@@ -272,9 +275,10 @@ class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801
     def _started(self, context: bpy.types.Context) -> Generator[float, None, str]:
         obj = tannable(active_object(context))
         named = [item.name for item in cast(Any, self).garments]
-        garments = [_object(name) for name in named] if named else selected_meshes(context)
+        worn = [_object(name) for name in named] if named else selected_objects(context)
         request = ClothesRequest(
-            garments=tuple(garment for garment in garments if garment != obj),
+            garments=tuple(item for item in worn if item.type == "MESH" and item != obj),
+            left_out=tuple(item for item in worn if _may_be_clothes(item)),
             name=self.name,
             reach=self.reach,
             inside=self.inside,
@@ -283,6 +287,11 @@ class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801
         return from_clothes(
             obj, edited_mask(obj, self.target), request, context, current_scene(context)
         )
+
+
+def _may_be_clothes(obj: bpy.types.Object) -> bool:
+    """Whether an object shows surfaces like a garment's, though it is no mesh."""
+    return obj.type in SURFACES or obj.instance_type == "COLLECTION"
 
 
 def _object(name: str) -> bpy.types.Object:

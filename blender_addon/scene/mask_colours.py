@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .changes import Changes
-from .masks import COLOURS, Source
+from .masks import COLOURS, Source, require_name
 from .vertex_groups import mask_names, new_attribute
 
 WRITTEN_KEY = "skin_tan_written"
@@ -35,8 +35,9 @@ def new_colours(
     Raises
     ------
     InputError
-        If Blender makes none.
+        If a mask cannot have the name, or Blender makes none.
     """
+    require_name(name)
     name = new_attribute(mesh, name, "FLOAT_COLOR", domain, changes)
     _write(mesh, name, shares)
     return name

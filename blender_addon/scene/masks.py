@@ -13,8 +13,10 @@ import bpy
 
 from hylios.errors import InputError
 
+from . import first_version
 from .images import MARK
 from .ownership import names
+from .trees import all_nested
 
 RESERVED = frozenset(
     """
@@ -43,6 +45,9 @@ COLOURS = ("FLOAT_COLOR", "BYTE_COLOR")
 
 BUILT_IN = frozenset(("material_index", "sharp_face"))
 """Attributes of Blender's own; nobody looks for a mask among them."""
+
+LONGEST_NAME = 63
+"""Bytes of the name of a new mask. Blender 4.5 has room for 67, of which a number takes four."""
 
 COPIES_KEY = "skin_tan_copies"
 """Custom property of a mesh: by the names of attributes that this add-on made, the vertex groups
@@ -139,8 +144,41 @@ def usable_sources(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None)
         ]
     if mesh.uv_layers:
         taken = {source.name for source in listed}
-        listed += [Source("IMAGE", image.name) for image in _images() if image.name not in taken]
+        skin = textures(obj)
+        images = sorted(
+            (image for image in _images() if image.name not in taken),
+            key=lambda image: (image in skin, cast(Any, image.colorspace_settings).is_data),
+        )
+        listed += [Source("IMAGE", image.name) for image in images]
     return listed
+
+
+def textures(obj: bpy.types.Object) -> set[bpy.types.Image]:
+    """Images in an object's materials, which are skin and clothes rather than masks."""
+    trees = [slot.material.node_tree for slot in obj.material_slots if slot.material]
+    own = {
+        inner
+        for tree in trees
+        if tree
+        for inner in (tree, *all_nested(tree))
+        if not first_version.is_tan_group(inner)
+    }
+    shown = (getattr(node, "image", None) for tree in own for node in tree.nodes)
+    return {image for image in shown if image is not None}
+
+
+def require_name(name: str) -> None:
+    """Raise InputError unless a new mask can have a name."""
+    if name in RESERVED | BUILT_IN or name.startswith("."):
+        raise InputError(
+            f"The name of the mask is {name!r}, which Blender keeps for itself; give it another."
+        )
+    length = len(name.encode())
+    if length > LONGEST_NAME:
+        raise InputError(
+            f"The name of the mask, {name[:20]!r}…, has {length} bytes; allowed are at most "
+            f"{LONGEST_NAME}."
+        )
 
 
 def source_of(
@@ -174,7 +212,12 @@ def require_usable(obj: bpy.types.Object, mask: Mask) -> Source | None:
         return None
     source = source_of(obj, mask, None) or source_of(obj, mask, current_depsgraph())
     if source is None:
-        usable = [item.name for item in usable_sources(obj, current_depsgraph())]
+        skin = {image.name for image in textures(obj)}
+        usable = [
+            item.name
+            for item in usable_sources(obj, current_depsgraph())
+            if item.kind != "IMAGE" or item.name not in skin
+        ]
         raise InputError(
             f"The mesh has no {mask.source!r}, which is set as a mask; allowed are: "
             f"{', '.join(usable[:12]) or 'none yet (press Paint Mask)'}."

@@ -48,6 +48,15 @@ def painted_colour(
     return None
 
 
+def painted_images(obj: bpy.types.Object) -> set[bpy.types.Image]:
+    """Images that are the colour of an object's materials."""
+    materials = [slot.material for slot in obj.material_slots if slot.material]
+    sources = [
+        _source(material, path, end) for material in materials for path, _, end in shaders(material)
+    ]
+    return {source for source in sources if isinstance(source, bpy.types.Image)}
+
+
 def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> Any:
     """The image or the colour (3,) that leads to an input, the nearest first."""
     waiting: list[tuple[Any, tuple[Any, ...]]] = [(end, path)]

@@ -122,6 +122,7 @@ def _surface(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Surface:
     mesh.calc_loop_triangles()
     triangles = np.empty((len(mesh.loop_triangles), 3), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles.ravel())
+    triangles = triangles[np.isfinite(points).all(axis=1)[triangles].all(axis=1)]
     matrix = np.array(evaluated.matrix_world, float)
     turned = normals @ np.linalg.pinv(matrix[:3, :3])
     lengths = np.linalg.norm(turned, axis=1, keepdims=True)

@@ -41,6 +41,7 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
         if not keep_timing and (any(settings.keyed) or not settings.applied):
             said += remove_day(obj, changes, settings.own_day)
             changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))
+        if not keep_timing:
             changes.set(settings, "own_day", "")
         changes.set(settings, "applied", "")
     return " ".join([f"Removed the tan of {obj.name!r}.", *said])

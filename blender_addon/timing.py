@@ -40,6 +40,7 @@ def reset(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
             changes.set(settings, "timing", SCENE)
         seen = applied.scene_frames(scene)
         at = frames(settings, days, seen)
+        _note_own_day(obj, changes)
         _key(obj, scene, days, at, changes)
         _note_frames(obj, scene, seen, changes)
         changes.at_the_end(partial(timeline.remove_modifiers, obj))
@@ -91,22 +92,16 @@ def key(
 ) -> list[str]:
     """Key the days at frames unless the keys are the artist's own; sentences on that."""
     settings = settings_of(obj)
+    said = _note_own_day(obj, changes)
     if settings.timing == OWN:
         timeline.set_first_day(obj, days[0], changes)
         return timeline.mutings(obj) if is_timed(obj) else [_without_keys(obj)]
-    said: list[str] = []
     keyed = tuple(settings.keyed) if any(settings.keyed) else (*days, *at)
     if timeline.has_own_keys(obj, keyed):
         if not timeline.has_keys(obj):
             return [_without_keys(obj)]
         stay = "The keys of the day are your own and stay as they are (Reset sets them)."
         return [stay, *timeline.mutings(obj)]
-    own = "" if any(settings.keyed) else timeline.own_day(obj)
-    if own:
-        changes.set(settings, "own_day", own)
-        said = [
-            f"The property {timeline.DAY_PROPERTY!r}, which you had, is the day of the tan now."
-        ]
     _key(obj, scene, days, at, changes)
     return said + timeline.mutings(obj)
 
@@ -122,6 +117,17 @@ def _without_keys(obj: bpy.types.Object) -> str:
         f"The day of {obj.name!r} has no keys, so all frames show day {day:g}: key the property "
         f"{timeline.DAY_PROPERTY!r}, or let Reset key it."
     )
+
+
+def _note_own_day(obj: bpy.types.Object, changes: Changes) -> list[str]:
+    """Remember the artist's own number of that name before its first use; a sentence on it."""
+    settings = settings_of(obj)
+    is_first = not any(settings.keyed) and not settings.applied and settings.group is None
+    own = timeline.own_day(obj) if is_first else ""
+    if not own:
+        return []
+    changes.set(settings, "own_day", own)
+    return [f"The property {timeline.DAY_PROPERTY!r}, which you had, is the day of the tan now."]
 
 
 def _key(

@@ -59,6 +59,8 @@ def own_day(obj: bpy.types.Object) -> str:
 def give_back(obj: bpy.types.Object, own: str) -> None:
     """Have an object's own number again."""
     obj[DAY_PROPERTY], appearance = json.loads(own)
+    if "items" in appearance:  # JSON has no tuples, and Blender takes nothing else
+        appearance["items"] = [tuple(item) for item in appearance["items"]]
     _set_appearance(obj, appearance)
 
 

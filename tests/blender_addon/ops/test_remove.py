@@ -250,6 +250,14 @@ def test_an_artists_own_property_of_that_name_stays(table_path):
     shown = obj.id_properties_ui("tan_day").as_dict()
     assert (obj["tan_day"], shown["description"], shown["max"]) == (7.0, "Mine", 9.0)
     assert not obj.animation_data and not bpy.ops.skin_tan.remove.poll()
+    obj["tan_day"] = 3
+    items = [("0", "None", ""), ("1", "One", "")]
+    obj.id_properties_ui("tan_day").update(items=items)
+    before = obj.id_properties_ui("tan_day").as_dict()
+    bpy.ops.skin_tan.reset_timing()
+    apply(obj)
+    bpy.ops.skin_tan.remove()
+    assert (obj["tan_day"], obj.id_properties_ui("tan_day").as_dict()) == (3, before)
 
 
 def test_a_strip_that_stays_is_said(table_path, capfd):

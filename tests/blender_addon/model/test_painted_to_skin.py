@@ -17,7 +17,7 @@ from hylios.skin.biology import Biology
 from hylios.table import melanin_dynamics, minimal_doses, skin_of
 from hylios.tanning import Exposures, simulate
 
-PAGE = Path(__file__).parents[3] / "docs" / "artist.md"
+PAGE = Path(__file__).parents[3] / "docs" / "research.md"
 TYPES = ("II", "III", "IV", "V", "VI")
 MELANIN, BLOOD, DOSES = (0.5, 0.7, 1.4, 2.0, 2.6), (1.0, 2.0, 4.0), (0.0, 4.0, 8.0)
 """Over those of the skin; tanning doses of one time in the sun."""
@@ -124,7 +124,7 @@ def test_dark_and_red_places_tan_nearer_to_the_model_than_as_all_skin():
 
 
 @pytest.mark.slow
-def test_figures_of_the_artist_s_page():
+def test_figures_of_the_researcher_s_page():
     """As the table there has them, of skins with other melanin and blood, and after two doses."""
     skins = [(melanin, blood) for melanin in MELANIN for blood in BLOOD]
     lines = []

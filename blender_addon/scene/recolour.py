@@ -15,7 +15,7 @@ from typing import Any
 
 import bpy
 
-from . import links
+from . import animated, links
 from .changes import Changes
 from .nodes import bridge, find_input, find_output
 from .trees import all_nested, shaders, tree_of
@@ -34,10 +34,11 @@ IS_TOLD, IS_MORE = "skin_tan_told", "skin_tan_more"
 whether it was made for that alone."""
 
 
-def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: Changes) -> None:
+def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: Changes) -> bool:
     """Multiply what arrives at colour inputs of a tree by a tan's Ratio.
 
-    Nodes of ours that lost the group are given this one.
+    Nodes of ours that lost the group are given this one. Returns whether a colour is animated: its
+    keys and drivers go to the node that multiplies it.
     """
     changes.may_add_to(tree.nodes)
     changes.may_relink(tree)
@@ -53,10 +54,10 @@ def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: C
     for factor in inserted(tree, FACTOR):
         if not factor.inputs[1].is_linked:
             tree.links.new(ratio, factor.inputs[1])
-    for end in ends:
-        if not is_recoloured(end):
-            _put_factor(tree, end, ratio)
+    fresh = [end for end in ends if not is_recoloured(end)]
+    moved = [_put_factor(tree, end, ratio, changes) for end in fresh]
     note_links(tree, changes)
+    return any(moved)
 
 
 def note_links(tree: Any, changes: Changes) -> None:
@@ -78,7 +79,8 @@ def _shaders_of(factor: Any) -> Iterator[Any]:
             yield link.to_socket
 
 
-def _put_factor(tree: Any, end: Any, ratio: Any) -> None:
+def _put_factor(tree: Any, end: Any, ratio: Any, changes: Changes) -> bool:
+    """Multiply what arrives at an input, and return whether that is a value which is animated."""
     factor = _new(tree, "ShaderNodeVectorMath", FACTOR, _beside([end], (-200, 120)))
     factor.operation, factor.label = "MULTIPLY", "Tan"
     source = end.links[0] if end.is_linked else None
@@ -92,6 +94,7 @@ def _put_factor(tree: Any, end: Any, ratio: Any) -> None:
         tree.links.new(start, factor.inputs[0]).is_muted = muted
     tree.links.new(ratio, factor.inputs[1])
     tree.links.new(factor.outputs[0], end)
+    return source is None and animated.move(tree, end, factor.inputs[0], changes)
 
 
 def _beside(ends: list[Any], shift: tuple[int, int]) -> tuple[float, float]:
@@ -166,6 +169,7 @@ def take_out(tree: Any) -> None:
     """Take what `insert` put into a tree out again; the colours' sources lead to the shaders."""
     show_painted(tree)
     for factor in reversed(inserted(tree, FACTOR)):
+        _give_keys_back(tree, factor)
         _take_out_factor(tree, factor)
     for tan in inserted(tree, TAN):
         tree.nodes.remove(tan)
@@ -299,6 +303,18 @@ def _tell(tree: Any, tan: Any, factor: Any, changes: Changes) -> None:
 
 def _has_instead(factor: Any) -> bool:
     return any(link.to_node.get(INSERTED) == INSTEAD for link in factor.outputs[0].links)
+
+
+def part_keys(tree: Any) -> None:
+    """Give a copy of a recoloured tree colours' keys of its own."""
+    animated.part(tree, [factor.inputs[0] for factor in inserted(tree, FACTOR)])
+
+
+def _give_keys_back(tree: Any, factor: Any) -> None:
+    ends = [link.to_socket for link in factor.outputs[0].links]
+    end = next((end for end in ends if end.type == "RGBA"), None)
+    if end is not None and not factor.inputs[0].is_linked:
+        animated.move_back(tree, factor.inputs[0], end)
 
 
 def _take_out_factor(tree: Any, factor: Any) -> None:

@@ -11,7 +11,18 @@ from typing import Any, cast
 
 import bpy
 
-from . import detail, images, nodes, recolour, region_nodes, several, slots, vertex_groups, waiting
+from . import (
+    animated,
+    detail,
+    images,
+    nodes,
+    recolour,
+    region_nodes,
+    several,
+    slots,
+    vertex_groups,
+    waiting,
+)
 from .alike import alike
 from .changes import Changes
 from .ownership import FORMER, MADE, Users, is_local, names, remembered
@@ -166,6 +177,7 @@ def _is_unedited(block: Any, former: Any, originals: Mapping[Any, Any]) -> bool:
     finally:
         for trial in trials:
             _collection(trial).remove(trial)
+        animated.remove_unused()
 
 
 def _collection(block: Any) -> Any:
@@ -209,6 +221,7 @@ def _remove_unused(blocks: Iterable[Any]) -> None:
     for block in reversed(list(blocks)):
         if _is_valid(block) and block.users == 0:
             _collection(block).remove(block)
+    animated.remove_unused()
 
 
 def _is_valid(block: Any) -> bool:

@@ -160,10 +160,14 @@ class Skin:
             for path, _, end in shaders(block):
                 tree = path[-1] if path else block.node_tree
                 ends.setdefault(tree, {}).setdefault(end)
-        for tree, inputs in ends.items():
-            recolour.insert(tree, inputs, self.group, changes)
+        moved = [
+            recolour.insert(tree, inputs, self.group, changes) for tree, inputs in ends.items()
+        ]
         self._made += [*made, *(self._copies.get(group, group) for group in around)]
-        return [f"Recoloured {names(made)}."]
+        said = [f"Recoloured {names(made)}."]
+        if any(moved):
+            said.append("Keys and drivers of a painted colour are on the node Tan beside it now.")
+        return said
 
     def _own_groups(self) -> list[Any]:
         """Groups around shaders of fresh materials; others' are copied for this object first."""
@@ -311,6 +315,7 @@ def _copy_of_shown(block: Any, obj: bpy.types.Object) -> Any:
     """A copy of what shows a tan, or of its group."""
     is_artist_s = not first_version.is_tan_group(tree_of(block)) and recolour.is_in(block)
     copy = _copy(block) if is_artist_s and FORMER not in block else block.copy()
+    recolour.part_keys(tree_of(copy))
     if block.name.startswith(materials.PREFIX):
         # A name for people only: after the object, as that of a new one.
         copy.name = materials.PREFIX + obj.name

@@ -1,0 +1,154 @@
+"""Painted colours with keys or drivers: they go on under the tan, and Remove Tan gives all back."""
+
+import bpy
+import numpy as np
+import pytest
+from artist_skins import grouped, plain, wear
+from bpy_extras.anim_utils import action_get_channelbag_for_slot
+from scenes import apply, tan_object
+from state import state
+
+from blender_addon.scene import recolour
+
+COLOURS = {1: (0.6, 0.42, 0.33, 1.0), 100: (0.1, 0.1, 0.8, 1.0)}
+
+
+def body(table_path, materials):
+    obj = tan_object(table_path, [1.0] * len(materials))
+    wear(obj, materials)
+    return obj
+
+
+def colour_of(material):
+    (shader,) = (node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    return shader.inputs["Base Color"]
+
+
+def keyed(name: str):
+    material = plain(name)
+    end = colour_of(material)
+    for frame, colour in COLOURS.items():
+        end.default_value = colour
+        end.keyframe_insert("default_value", frame=frame)
+    return material
+
+
+def driven(name: str):
+    material = plain(name)
+    for channel, curve in enumerate(colour_of(material).driver_add("default_value")):
+        curve.driver.expression = f"frame / {200 + channel}"
+    return material
+
+
+def painted(material) -> tuple:
+    """What the tan multiplies."""
+    (factor,) = recolour.inserted(material.node_tree, recolour.FACTOR)
+    return tuple(factor.inputs[0].default_value)
+
+
+def all_of_file() -> tuple:
+    trees = [material.node_tree for material in bpy.data.materials]
+    moved = [
+        (
+            tree.animation_data and tree.animation_data.action,
+            sorted(curve.data_path for curve in curves_of(tree)),
+        )
+        for tree in trees
+    ]
+    return moved, state()
+
+
+def curves_of(tree) -> list:
+    animation = tree.animation_data
+    if animation is None:
+        return []
+    curves = list(animation.drivers)
+    if animation.action:
+        bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
+        curves += bag.fcurves
+    return curves
+
+
+@pytest.mark.parametrize("make", [keyed, driven])
+def test_an_animated_colour_goes_on_and_comes_back(table_path, make, tmp_path, capfd):
+    obj = body(table_path, [make("skin")])
+    bpy.context.scene.frame_set(1)
+    before = all_of_file()
+    apply(obj)
+    assert "Keys and drivers of a painted colour" in capfd.readouterr().out
+    bpy.context.scene.frame_set(100)
+    wanted = COLOURS[100][:3] if make is keyed else np.divide(100.0, (200, 201, 202))
+    assert painted(bpy.data.materials["skin"]) == pytest.approx(wanted)
+    apply(obj)
+    bpy.context.scene.frame_set(1)
+    bpy.ops.skin_tan.remove()
+    assert all_of_file() == before
+
+
+def test_keys_go_on_in_a_saved_file(table_path, tmp_path):
+    apply(body(table_path, [keyed("skin")]))
+    path = str(tmp_path / "keyed.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
+    for frame, colour in COLOURS.items():
+        bpy.context.scene.frame_set(frame)
+        assert painted(bpy.data.materials["skin"]) == pytest.approx(colour[:3])
+
+
+def test_another_tree_with_the_action_keeps_its_own(table_path):
+    """A material that others show is copied, and its action with it."""
+    skin = keyed("skin")
+    prop = body(table_path, [skin])
+    prop.name = "Prop"
+    obj = body(table_path, [skin])
+    bpy.context.scene.frame_set(1)
+    before = all_of_file()
+    apply(obj)
+    bpy.context.scene.frame_set(100)
+    assert tuple(colour_of(skin).default_value) == pytest.approx(COLOURS[100])
+    assert painted(obj.material_slots[0].material) == pytest.approx(COLOURS[100][:3])
+    bpy.context.scene.frame_set(1)
+    bpy.ops.skin_tan.remove()
+    assert all_of_file() == before
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+@pytest.mark.parametrize("applied", [True, False])
+def test_a_duplicate_and_its_original_both_go_back(table_path, order, applied):
+    skin = keyed("skin")
+    first = body(table_path, [skin])
+    bpy.context.scene.frame_set(1)
+    before, action = state()["materials"], skin.node_tree.animation_data.action
+    paths = [curve.data_path for curve in curves_of(skin.node_tree)]
+    apply(first)
+    second = first.copy()
+    bpy.context.collection.objects.link(second)
+    if applied:
+        second.skin_tan.exposures[0].dose = 8.0
+        apply(second)
+    bpy.context.scene.frame_set(100)
+    bodies = first, second
+    for obj in bodies:
+        assert painted(obj.material_slots[0].material) == pytest.approx(COLOURS[100][:3])
+    bpy.context.scene.frame_set(1)
+    for index in order:
+        bpy.context.view_layer.objects.active = bodies[index]
+        bpy.ops.skin_tan.remove()
+        bpy.context.scene.frame_set(1)
+    assert state()["materials"] == before
+    assert [obj.material_slots[0].material for obj in bodies] == [skin, skin]
+    assert [curve.data_path for curve in curves_of(skin.node_tree)] == paths
+    assert skin.node_tree.animation_data.action == action and list(bpy.data.actions) == [action]
+
+
+def test_an_error_leaves_the_keys_where_they_were(table_path, monkeypatch):
+    obj = body(table_path, [keyed("skin"), grouped("ears")])
+    before = all_of_file()
+    monkeypatch.setattr(recolour, "note_links", fail)
+    with pytest.raises(RuntimeError):
+        apply(obj)
+    assert all_of_file() == before
+
+
+def fail(*_):
+    raise RuntimeError("stopped")

@@ -65,9 +65,22 @@ def edited_mask(obj: bpy.types.Object, target: str) -> SkinTanMask:
             f"{obj.name!r} has no time in the sun that could have a mask; add one first."
         )
     exposure = exposures[min(settings.exposure_index, len(exposures) - 1)]
-    if target == "EXPOSURE" and not exposure.own_mask:
-        exposure.own_mask = True
-    return exposure.mask if exposure.own_mask else settings.mask
+    return exposure.mask if target == "EXPOSURE" or exposure.own_mask else settings.mask
+
+
+def wear(obj: bpy.types.Object, mask: SkinTanMask) -> None:
+    """Turn on a time in the sun's own mask, now that it is made."""
+    for exposure in settings_of(obj).exposures:
+        if exposure.mask == mask and not exposure.own_mask:
+            exposure.own_mask = True
+
+
+def _worn_when_made(
+    work: Generator[float, None, str], obj: bpy.types.Object, mask: SkinTanMask
+) -> Generator[float, None, str]:
+    said = yield from work
+    wear(obj, mask)
+    return said
 
 
 def edited_region(obj: bpy.types.Object) -> SkinTanRegion:
@@ -144,7 +157,10 @@ class SKIN_TAN_OT_paint_mask(bpy.types.Operator):  # noqa: N801
 
     def _prepared(self, obj: bpy.types.Object) -> tuple[str, str]:
         if self.target != REGION:
-            return mask_for_brush(obj, edited_mask(obj, self.target), self.name, self.domain)
+            mask = edited_mask(obj, self.target)
+            done = mask_for_brush(obj, mask, self.name, self.domain)
+            wear(obj, mask)
+            return done
         region = edited_region(obj)
         is_named = self.properties.is_property_set("name")
         name = self.name if is_named else f"{region.label()} Mask"
@@ -284,9 +300,9 @@ class SKIN_TAN_OT_mask_from_clothes(bpy.types.Operator):  # noqa: N801
             inside=self.inside,
             softness=self.softness,
         )
-        return from_clothes(
-            obj, edited_mask(obj, self.target), request, context, current_scene(context)
-        )
+        mask = edited_mask(obj, self.target)
+        work = from_clothes(obj, mask, request, context, current_scene(context))
+        return _worn_when_made(work, obj, mask)
 
 
 def _may_be_clothes(obj: bpy.types.Object) -> bool:

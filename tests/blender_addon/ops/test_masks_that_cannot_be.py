@@ -73,11 +73,12 @@ def test_faces_of_a_garment_without_a_place_cover_nothing(body, band):
 
 @pytest.mark.parametrize("name", ["density", "material_index", ".hidden", "é" * 32, "a" * 200])
 def test_names_that_no_mask_can_have_are_refused(body, band, name):
-    listed = set(body.data.attributes.keys())
+    listed, exposure = set(body.data.attributes.keys()), body.skin_tan.exposures.add()
     for make in (bpy.ops.skin_tan.mask_from_clothes, bpy.ops.skin_tan.paint_mask):
         with pytest.raises(RuntimeError, match="The name of the mask"):
-            make(name=name)
-    assert set(body.data.attributes.keys()) == listed and not body.skin_tan.mask.source
+            make(name=name, target="EXPOSURE")
+    assert set(body.data.attributes.keys()) == listed
+    assert not (exposure.own_mask or exposure.mask.source)
 
 
 def test_the_longest_name_of_a_mask_tans_twice(body):

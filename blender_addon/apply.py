@@ -311,8 +311,14 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     late = sum(doses.begin(exposure) > 24.0 * values.last_day for exposure in values.exposures)
     if late:
         remarks.append(f"Times in the sun after day {values.last_day:g} have no effect: {late}.")
-    if values.redness and not holds_redness(catalogue.table(values.table)):
+    table = catalogue.table(values.table)
+    if values.redness and not holds_redness(table):
         remarks.append("The table holds no blood, so no sunburn shows.")
+    if values.kinetics not in table.kinetics:
+        remarks.append(
+            "The table holds tans as in the thesis only, so one as measured in people is rough; "
+            "build it with the standard preset, or set Tan to As in the Thesis."
+        )
     if not tan.look.has_profile:
         remarks.append("The table has no diffusion profile, so there is no subsurface scattering.")
     return remarks

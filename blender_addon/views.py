@@ -135,7 +135,8 @@ def _look(source: Mapping[str, Any], view: str) -> BandLook:
     path: Path = table_file(source["skin"], source["table_path"])
     doses = MinimalDoses(mmd=source["mmd"], med=source["med"])
     biology = Biology(**source.get("biology", {}))
-    table, kinetics = table_with(path, biology, bands=True), source.get("kinetics", "thesis")
+    kinetics = source.get("kinetics", "thesis")
+    table = table_with(path, biology, kinetics=kinetics, bands=True)
     look = band_look(table, doses, VIEWS[view], kinetics)
     if not np.allclose(_ends(look), source["ends"], atol=1e-3):
         raise InputError("the table has changed since Apply; press Apply Tan.")

@@ -17,13 +17,18 @@ from .settings import TanSettings
 
 
 def table_with(
-    path: Path, biology: Biology, *, rough: bool = False, bands: bool = False
+    path: Path,
+    biology: Biology,
+    *,
+    kinetics: str = "thesis",
+    rough: bool = False,
+    bands: bool = False,
 ) -> SkinTable:
     """The table in a file with another biology; as it is where nothing changes.
 
     Parameters
     ----------
-    rough, bands : bool
+    kinetics, rough, bands
         As in `hylios.changed_table.changed_table`.
 
     Raises
@@ -33,14 +38,15 @@ def table_with(
     """
     if biology == Biology():
         return catalogue.table(path)
-    return _changed(path, catalogue.stamp(path), biology, rough, bands)
+    return _changed(path, catalogue.stamp(path), biology, kinetics, rough, bands)
 
 
 @functools.lru_cache(maxsize=4)
 def _changed(
-    path: Path, stamp: tuple[int, int], biology: Biology, rough: bool, bands: bool
+    path: Path, stamp: tuple[int, int], biology: Biology, kinetics: str, rough: bool, bands: bool
 ) -> SkinTable:
-    return changed_table(catalogue.table(path), biology, rough=rough, bands=bands)
+    table = catalogue.table(path)
+    return changed_table(table, biology, kinetics=kinetics, rough=rough, bands=bands)
 
 
 def build_command(settings: TanSettings, output: str = "skin.exr") -> str:

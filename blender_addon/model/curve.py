@@ -111,7 +111,7 @@ def _curve(settings: TanSettings, stamp: tuple[int, int]) -> Curve:
     """The curve, kept: Apply and the panel ask for the same."""
     del stamp  # of the table's file, so that another one counts
     history = history_of(settings, DRAG)
-    table = table_with(settings.table, settings.biology, rough=True)
+    table = table_with(settings.table, settings.biology, kinetics=settings.kinetics, rough=True)
     minimal = settings.minimal_doses(table.provenance)
     days = np.linspace(settings.first_day, settings.last_day, POINTS)
     coordinates = np.concatenate([np.zeros((1, 3)), _of_bare_skin(history, days)])

@@ -83,7 +83,8 @@ def _look(
     kinetics: str,
     rough: bool,
 ) -> Look:
-    return look(table_with(path, biology, rough=rough), minimal, kinetics)
+    table = table_with(path, biology, kinetics=kinetics, rough=rough)
+    return look(table, minimal, kinetics)
 
 
 def history_of(settings: TanSettings, precision: Precision = FULL) -> History:

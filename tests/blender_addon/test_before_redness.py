@@ -99,11 +99,16 @@ def test_a_new_tan_reddens_under_a_mask(table_path):
     assert 0.2 < red[:, red.shape[1] // 2].max() < red[:, -1].max()
 
 
-def test_a_table_without_blood_is_said(former_path):
+def test_a_table_without_blood_or_measured_tans_is_said(former_path, capfd):
     obj = tan_object(former_path)
-    obj.skin_tan.redness = True
+    obj.skin_tan.kinetics, obj.skin_tan.redness = "THESIS", True
     assert apply(obj) == {"FINISHED"}
     assert not states(obj)[..., 2].any()
+    said = capfd.readouterr().out
+    assert "no sunburn shows" in said and "as measured in people is rough" not in said
+    obj.skin_tan.kinetics = "MEASURED"
+    assert apply(obj) == {"FINISHED"}
+    assert "as measured in people is rough" in capfd.readouterr().out
 
 
 def test_skin_that_only_burns_shows_its_reddest_day():

@@ -110,7 +110,7 @@ def _is_colour(image: bpy.types.Image) -> bool:
     return not cast(Any, image.colorspace_settings).is_data
 
 
-Places = tuple[NDArray[np.float32] | None, NDArray[np.float32] | None]
+Places = tuple[NDArray[np.float32] | None, NDArray[np.floating] | None]
 """Texture coordinates (N, 2), and the area of the mesh that each stands for (N,)."""
 
 

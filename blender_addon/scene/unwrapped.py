@@ -93,7 +93,7 @@ def covered(mesh: bpy.types.Mesh, places: NDArray[np.float32], rows: int, column
     return Covered(texels, corners[own], weights, bool(is_clear))
 
 
-def _planes(ends: NDArray[np.float64]) -> NDArray[np.float32]:
+def _planes(ends: NDArray[np.floating]) -> NDArray[np.float32]:
     """Barycentric coordinates of triangles (N, 3, 2) over x and y: slopes and start, (3, 3, N).
 
     Those of triangles without area are -1.

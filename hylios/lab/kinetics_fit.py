@@ -88,7 +88,7 @@ def tans(dynamics: Kinetics, doses: np.ndarray) -> NDArray[np.float64]:
     return states[..., :3].sum(axis=-1) - 1.0
 
 
-def _days(count: int) -> NDArray[np.float64]:
+def _days(count: int) -> NDArray[np.floating]:
     """Days of so many exposures in 3 weeks."""
     return 21.0 / count * np.arange(count)
 

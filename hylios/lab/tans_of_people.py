@@ -127,7 +127,7 @@ def _off_first_order() -> float:
     return 100.0 * abs(float(left[1] / left[0] / (left[2] / left[1]) - 1.0))
 
 
-def _thickness(hours: NDArray[np.float64], dose: float, time: float, kinetics: str) -> float:
+def _thickness(hours: NDArray[np.floating], dose: float, time: float, kinetics: str) -> float:
     """Thickness at an hour after doses in MED."""
     skin = skin_type(USUAL, kinetics=kinetics)
     doses = np.full(hours.size, dose * skin.med)

@@ -102,7 +102,7 @@ class ErythemaDynamics:
         values = [getattr(self, f"{name}_decay") for name in decays]
         for name, value in zip(decays, values, strict=True):
             require_range(f"{name}_decay of redness", value, 0.0, 1.0 - 1e-9)
-        if np.diff(np.sort(values)).min() < LEAST_APART:
+        if np.min(np.diff(np.sort(values))) < LEAST_APART:
             raise InputError(
                 f"decays of redness are {values}; allowed are four that differ by {LEAST_APART:g} "
                 "or more."
@@ -224,7 +224,7 @@ class Burns:
     ) -> NDArray[np.float64]:
         """As `blood`, of some histories with states (H, E, 4) at the hours of these burns."""
         melanin, thickness = tan[..., :3].sum(axis=-1).T, tan[..., 3].T
-        return self.blood(self.doses[some].T, melanin, thickness, marks)
+        return np.asarray(self.blood(self.doses[some].T, melanin, thickness, marks), float)
 
     def acting(
         self,

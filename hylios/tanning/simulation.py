@@ -194,7 +194,7 @@ def simulate_in_parts(
     if erythema is not None:
         blood = course.blood(Burns.of(exposures, erythema, med), every, told)
     for first in range(0, count, rows):
-        times = step * np.arange(first, min(first + rows, count))
+        times = np.asarray(step * np.arange(first, min(first + rows, count)), float)
         states = course.at(times)
         if blood is not None:
             reddened = between_hours(told, blood, times)

@@ -134,7 +134,10 @@ def key_values(key) -> tuple:
 def new(table_path):
     """An object with a material and an animation of the artist's own."""
     obj = tan_object(table_path)
-    obj.data.materials.append(bpy.data.materials.new("Mine"))
+    material = bpy.data.materials.new("Mine")
+    if material.node_tree is None:  # Blender 4.5 makes it without nodes
+        material.use_nodes = True
+    obj.data.materials.append(material)
     obj.keyframe_insert("location", frame=3)
     return obj
 

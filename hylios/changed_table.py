@@ -25,6 +25,7 @@ from hylios.table.provenance import own_spectra, skin_of
 from hylios.table.skin_table import SkinTable
 from hylios.tan_fit import LEAST_SPAN, PLACES, TanFit
 from hylios.tanning.spread import spread_of
+from hylios.threads import one_thread
 from hylios.tissue import Model
 
 COLOUR, TOTAL, WET = "subsurface_colour", "total_colour", "wet_subsurface_colour"
@@ -219,10 +220,12 @@ def changed_table(
         blood=specimen.papillary_blood / skin.specimen.papillary_blood,
     )
     changed = replace(skin, specimen=specimen)
+    with one_thread():
+        correction = _correction(moved, changed, rough, bands)
     return replace(
         moved,
         provenance={**table.provenance, "specimen_parameters": vars(specimen)},
-        correction=_correction(moved, changed, rough, bands),
+        correction=correction,
     )
 
 

@@ -12,6 +12,7 @@ from hylios.errors import InputError
 from hylios.skin.biology import Biology
 from hylios.sun.doses import Doses
 from hylios.table import MinimalDoses, SkinTable
+from hylios.threads import one_thread
 
 from . import catalogue, doses
 from .basis import FULL as FULL_BASIS
@@ -84,7 +85,8 @@ def _look(
     rough: bool,
 ) -> Look:
     table = table_with(path, biology, kinetics=kinetics, rough=rough)
-    return look(table, minimal, kinetics)
+    with one_thread():
+        return look(table, minimal, kinetics)
 
 
 def history_of(settings: TanSettings, precision: Precision = FULL) -> History:

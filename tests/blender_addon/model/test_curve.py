@@ -4,29 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exposures import USUAL
 
 from blender_addon.model import catalogue, curve
-from blender_addon.model.settings import Exposure, TanSettings
+from blender_addon.model.settings import TanSettings
 from hylios.colour_difference import lab
 from hylios.skin.phototypes import phototype
 from hylios.tanning import Exposures, states_at
 
-EXPOSURE = Exposure(
-    day=0.0,
-    unit="SED",
-    dose=25.0,
-    multiple=2.0,
-    uv_index=8.0,
-    duration=2.0,
-    latitude=40.0,
-    month=7,
-    day_of_month=15,
-    from_hour=11.0,
-    to_hour=15.0,
-    sunscreen=False,
-    spf=30.0,
-    sunscreen_amount=2.0,
-)
+EXPOSURE = replace(USUAL, dose=25.0)
 SETTINGS = TanSettings(
     table=catalogue.shipped_path("III"),
     own_doses=None,

@@ -1,37 +1,23 @@
 """Exposures as an artist gives them, against the functions of hylios that turn them into doses."""
 
+from dataclasses import replace
 from datetime import date
 
 import numpy as np
 import pytest
+from exposures import USUAL
 
 from blender_addon.model import doses
-from blender_addon.model.settings import Exposure
 from hylios.errors import InputError
 from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import of_sun
 
 HEADER = {"absorptance": {"wavelengths_nm": [280.0, 340.0, 400.0], "values": [0.97, 0.9, 0.7]}}
-USUAL = {
-    "day": 3.0,
-    "unit": "SED",
-    "dose": 10.0,
-    "multiple": 2.5,
-    "uv_index": 8.0,
-    "duration": 2.5,
-    "latitude": 40.0,
-    "month": 7,
-    "day_of_month": 15,
-    "from_hour": 11.0,
-    "to_hour": 13.5,
-    "sunscreen": False,
-    "spf": 30.0,
-    "sunscreen_amount": 2.0,
-}
+EXPOSURE = replace(USUAL, day=3.0, multiple=2.5, duration=2.5, to_hour=13.5)
 
 
 def received(**changes):
-    return doses.received([Exposure(**{**USUAL, **changes})], 4.0, HEADER)
+    return doses.received([replace(EXPOSURE, **changes)], 4.0, HEADER)
 
 
 def test_the_same_in_all_units_but_the_sun():
@@ -60,7 +46,7 @@ def test_a_day_of_sun_is_computed_once_for_all_days_and_skins_apart(monkeypatch)
     bare, covered = received(unit="SUN"), received(unit="SUN", sunscreen=True)
     assert np.all(covered.melanogenesis < bare.melanogenesis)
     pale = {"absorptance": {**HEADER["absorptance"], "values": [0.5, 0.5, 0.5]}}
-    other = doses.received([Exposure(**{**USUAL, "unit": "SUN"})], 4.0, pale)
+    other = doses.received([replace(EXPOSURE, unit="SUN")], 4.0, pale)
     assert np.all(other.melanogenesis != bare.melanogenesis)
     monkeypatch.setattr(doses, "of_sun", None)
     again = received(unit="SUN", day=9.0)
@@ -107,6 +93,6 @@ def test_what_cannot_be_is_named(changes, sentence):
 
 
 def test_a_table_without_absorptance_has_no_sun():
-    exposure = Exposure(**{**USUAL, "unit": "SUN"})
+    exposure = replace(EXPOSURE, unit="SUN")
     with pytest.raises(InputError, match="what its skin absorbs in the ultraviolet"):
         doses.received([exposure], 4.0, {})

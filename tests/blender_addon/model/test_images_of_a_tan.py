@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from exposures import USUAL
 from sampled import colours, tan
 from synthetic import smooth_table
 
 from blender_addon.model import catalogue, doses, history, schedule
-from blender_addon.model.settings import Exposure, TanSettings, own_minimal_doses
+from blender_addon.model.settings import TanSettings, own_minimal_doses
 from blender_addon.model.tan import tan_of
 from hylios.errors import InputError
 from hylios.skin import varied
@@ -40,22 +41,7 @@ def test_the_dynamics_in_the_header_count(table):
 
 
 def settings(path, **changes):
-    exposure = Exposure(
-        day=0.0,
-        unit="SUN",
-        dose=10.0,
-        multiple=2.0,
-        uv_index=8.0,
-        duration=2.0,
-        latitude=40.0,
-        month=7,
-        day_of_month=15,
-        from_hour=11.0,
-        to_hour=15.0,
-        sunscreen=False,
-        spf=30.0,
-        sunscreen_amount=2.0,
-    )
+    exposure = replace(USUAL, unit="SUN")
     usual = {"own_doses": None, "exposures": (exposure,), "first_day": 3.0, "last_day": 10.0}
     return TanSettings(table=path, **{**usual, **changes})
 

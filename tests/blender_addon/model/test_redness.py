@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exposures import USUAL
 from sampled import coordinates, looked_up
 
 import hylios
 from blender_addon.model import basis, catalogue, curve, history, summary
 from blender_addon.model.look import look
 from blender_addon.model.response import holds_redness, response_of
-from blender_addon.model.settings import Exposure, TanSettings
+from blender_addon.model.settings import TanSettings
 from blender_addon.model.tan import history_of
 from hylios.adding.colours import colours
 from hylios.colour_difference import ciede2000, lab
@@ -122,22 +123,7 @@ def test_a_table_without_blood_shows_no_redness(former_path):
     assert response_of(TABLE).erythema is None
 
 
-SUN = Exposure(
-    day=0.0,
-    unit="SED",
-    dose=3.0 * SKIN.med,
-    multiple=2.0,
-    uv_index=8.0,
-    duration=2.0,
-    latitude=40.0,
-    month=7,
-    day_of_month=15,
-    from_hour=11.0,
-    to_hour=15.0,
-    sunscreen=False,
-    spf=30.0,
-    sunscreen_amount=2.0,
-)
+SUN = replace(USUAL, dose=3.0 * SKIN.med)
 SETTINGS = TanSettings(
     table=catalogue.shipped_path("II"),
     own_doses=None,

@@ -1,6 +1,7 @@
 """Whether what an artist has set is what Apply has last shown."""
 
 import ast
+import functools
 import hashlib
 
 import bpy
@@ -37,12 +38,19 @@ def scene_frames(scene: bpy.types.Scene) -> Frames:
 
 def applied_frames(obj: bpy.types.Object, scene: bpy.types.Scene) -> Frames:
     """The scene's frames as the last Apply has met them; before one, as they are."""
+    rest = settings_of(obj).applied.split(SEPARATOR)[-1]
+    return _frames_in(rest) or scene_frames(scene)
+
+
+@functools.lru_cache(maxsize=256)
+def _frames_in(rest: str) -> Frames | None:
+    """The frames in the last line of `text_of`, which is asked for at every change of a frame."""
     try:
-        _, frames, *_ = ast.literal_eval(settings_of(obj).applied.split(SEPARATOR)[-1])
+        _, frames, *_ = ast.literal_eval(rest)
         first, last, rate, base = frames
         return first, last, rate, base
     except (ValueError, SyntaxError, TypeError):
-        return scene_frames(scene)
+        return None
 
 
 def is_left_behind(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:

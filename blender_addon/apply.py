@@ -18,7 +18,7 @@ from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
 from .props import SkinTanExposure, SkinTanSettings, settings_of
-from .props.region import is_shown
+from .props.region import is_on, is_shown
 from .scene import (
     detail,
     film,
@@ -345,9 +345,7 @@ def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
 def _on_regions(settings: SkinTanSettings) -> list[str]:
     """Which regions are on and lie nowhere."""
     without = [
-        region.label()
-        for region in settings.regions
-        if region.enabled and region.strength > 0.0 and not is_shown(region)
+        region.label() for region in settings.regions if is_on(region) and not is_shown(region)
     ]
     if not without:
         return []

@@ -86,7 +86,12 @@ def images_of(coefficients: NDArray, masks: int, steps: int) -> list[NDArray[np.
     if masks > SLICED:
         table[1::2] = table[1::2, ::-1]
     rows = table.reshape(-1, *table.shape[2:])
-    return [rows[..., b : b + CHANNELS] for b in range(0, rows.shape[-1], CHANNELS)]
+    return by_texels(rows)
+
+
+def by_texels(values: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """Images (rows, columns, 3) of values (rows, columns, K), K a multiple of 3."""
+    return [values[..., b : b + CHANNELS] for b in range(0, values.shape[-1], CHANNELS)]
 
 
 def coefficients_at(images: Sequence[NDArray], shares: NDArray) -> NDArray[np.float64]:

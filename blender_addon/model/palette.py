@@ -13,11 +13,9 @@ from numpy.typing import NDArray
 from hylios.errors import InputError
 
 from .basis import DRAG, FULL, Basis
+from .grid import by_texels
 
 COLUMNS, MOST = 256, 65_536
-
-CHANNELS = 3
-"""Values of a texel of the palette's images."""
 
 RANKS = (5, 8, 11, 14)
 """With the share they are whole texels."""
@@ -53,7 +51,7 @@ def palette_images(
     rows = -(-size // COLUMNS)
     padded = np.pad(values, ((0, rows * COLUMNS - size), (0, 0)), mode="edge")
     table = padded.reshape(rows, COLUMNS, -1)
-    return [table[..., b : b + CHANNELS] for b in range(0, table.shape[-1], CHANNELS)]
+    return by_texels(table)
 
 
 def places_in_palette(number: NDArray[np.int_]) -> NDArray[np.uint8]:

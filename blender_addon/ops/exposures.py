@@ -9,11 +9,9 @@ from hylios.errors import InputError
 
 from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
 from ..props.copying import copy_values
+from ..props.presets import OF_ONE_MESH
 from .active import active_settings, can_edit
 from .lists import SELECTED, after_removing, index_of
-
-OF_ONE_TIME = ("own_mask", "mask")
-"""What a time in the sun does not take from the one before: a brush on it would paint on both."""
 
 
 def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
@@ -57,7 +55,7 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
         latest = None if last is None else list(settings.exposures).index(last)
         added = settings.exposures.add()
         if latest is not None:
-            copy_values(settings.exposures[latest], added, leave=OF_ONE_TIME)
+            copy_values(settings.exposures[latest], added, leave=OF_ONE_MESH)
         added.name, added.enabled = self.name, True
         added.day = self.day if self.properties.is_property_set("day") else day
         if self.properties.is_property_set("dose"):

@@ -18,7 +18,8 @@ SCHEDULE = ("first_day", "last_day", "exposures")
 """Names of what a preset of a skin and of a schedule holds."""
 
 OF_ONE_MESH = frozenset({"mask", "own_mask"})
-"""Properties of an exposure that mean nothing on another mesh."""
+"""Properties of an exposure that mean nothing on another mesh, and that a new one is not given: a
+brush would paint on the mask of both."""
 
 
 def preset_text(settings: bpy.types.PropertyGroup, names: Collection[str]) -> str:

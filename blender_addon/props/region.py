@@ -107,7 +107,11 @@ class SkinTanRegion(bpy.types.PropertyGroup):
         return not self.painted and self.kind.lower() in spots()
 
 
+def is_on(region: Any) -> bool:
+    """Whether a region changes the skin where it lies."""
+    return region.enabled and region.strength > 0.0
+
+
 def is_shown(region: Any) -> bool:
     """Whether a region changes anything: it is on, and lies somewhere."""
-    lies = region.has_spots() or region.mask.source or region.mask.image
-    return bool(region.enabled and region.strength > 0.0 and lies)
+    return bool(is_on(region) and (region.has_spots() or region.mask.source or region.mask.image))

@@ -59,7 +59,7 @@ class _Main:
             return
         draw_curve(layout, settings)
         layout.prop(settings, "live")
-        if is_changed(obj, current_scene(context)) and not settings.live:
+        if not settings.live and is_changed(obj, current_scene(context)):
             layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
         if is_left_behind(obj, current_scene(context)):
             draw_lines(layout, FRAMES_CHANGED, "INFO")

@@ -19,7 +19,6 @@ MONTH, DAY, HOUR, GLOBAL, COVER = 1, 2, 3, 13, 22
 """Columns, from 0."""
 
 MOST_HEADINGS = 30
-MOST_HOURS = 8784
 LEAP_YEAR = 2000
 
 

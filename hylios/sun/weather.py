@@ -88,6 +88,7 @@ def of_weather(
         erythemal=factor * doses.erythemal,
         melanogenesis=factor * doses.melanogenesis,
         thickening=factor * doses.thickening,
+        uva=None if doses.uva is None else factor * doses.uva,
     )
 
 

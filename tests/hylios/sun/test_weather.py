@@ -72,6 +72,7 @@ def test_half_the_radiation_is_more_than_half_the_ultraviolet():
     assert doses.hours.tolist() == [35.0, 36.0, 37.0]
     ratio = doses.erythemal[1:] / ALL.erythemal[12:14]
     assert ratio == pytest.approx([0.5**EXPONENT, 0.8367], rel=2e-3)
+    assert doses.uva[1:] / ALL.uva[12:14] == pytest.approx(ratio)
     assert doses.erythemal[0] == pytest.approx(0.5**EXPONENT * 0.5 * ALL.erythemal[11], rel=3e-2)
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hylios.adding import colours
+from hylios.adding import colours, spectra
 from hylios.adding.redness import erythema
 from hylios.commands.dose_arguments import (
     add_exposure_arguments,
@@ -17,6 +17,7 @@ from hylios.commands.shell import (
     add_erythema_argument,
     add_kinetics_argument,
     add_tanning_arguments,
+    chosen_region,
     note_estimates,
     note_redness,
 )
@@ -77,14 +78,21 @@ def write_row(arguments: argparse.Namespace) -> None:
             f"{MOST_ACROSS}, which is a size of {MOST_ACROSS // days.size}."
         )
     angle = require_range("angle", arguments.angle, 0.0, 89.99, "degrees")
-    of = skin_in_light(arguments)
+    of = skin_in_light(argparse.Namespace(**{**vars(arguments), "region": None}))
     skin, reddening = of.skin, None
     if arguments.erythema:
         skin = replace(skin, thickening="epidermis")
         reddening = erythema(skin, of.model)
     exposures = chosen_doses(arguments, of).exposures()
     states = skin.states(exposures, 24.0 * days, erythema=reddening)
-    seen = colours(skin, states, count=WAVELENGTHS, angle=angle, model=of.model).total
+    told = chosen_region(arguments, skin.specimen)
+    if told is None:
+        seen = colours(skin, states, count=WAVELENGTHS, angle=angle, model=of.model).total
+    else:
+        tanned = [told.of(skin.at(state)) for state in told.own_states(states)]
+        few = skin_quadrature(WAVELENGTHS)
+        light = spectra(tanned, few.wavelengths, angle=angle, model=of.model)
+        seen = light.total @ few.weights.T
     note_estimates(of.model, skin_quadrature(WAVELENGTHS).wavelengths)
     if skin.kinetics != "thesis":
         print(f"note: the {skin.kinetics} kinetics is {KINETICS[skin.kinetics]}", file=sys.stderr)

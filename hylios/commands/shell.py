@@ -15,7 +15,7 @@ from hylios.errors import InputError, require_whole, shown
 from hylios.readers.spectrum import NamedSpectrum
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, named_specimen, phototype
-from hylios.skin.regions import REGIONS, region
+from hylios.skin.regions import REGIONS, Region, region
 from hylios.skin.specimen import Specimen, parameters, with_values
 from hylios.skin.specimen_file import read_specimen
 from hylios.spectra import estimates_within, published_spectra, with_own_spectrum
@@ -167,7 +167,7 @@ def add_region_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--region",
         choices=REGIONS,
-        help="a region of that skin, without sun: what is set is of the skin around it",
+        help="a region of that skin: what is set is of the skin around it",
     )
 
 
@@ -255,14 +255,22 @@ def chosen_specimen(arguments: argparse.Namespace) -> Specimen:
     else:
         start = named_specimen(name)
     specimen = with_values(start, values, allow_unphysical=unphysical)
+    told = chosen_region(arguments, specimen)
+    if told is None:
+        return specimen
+    return replace(told.of(specimen), name=f"{specimen.name} {arguments.region}")
+
+
+def chosen_region(arguments: argparse.Namespace, specimen: Specimen) -> Region | None:
+    """The region of a specimen that the arguments name, if any; says what of it is an estimate."""
     name = getattr(arguments, "region", None)
     if name is None:
-        return specimen
+        return None
     told = region(name, specimen.pigmentation)
     if told.is_estimate:
         marked = ", ".join(number for number, mark in told.marks.items() if mark == "E")
         print(f"note: of {name} it is an ESTIMATE: {marked}.", file=sys.stderr)
-    return replace(told.of(specimen), name=f"{specimen.name} {name}")
+    return told
 
 
 def _specimen_name(arguments: argparse.Namespace) -> str:

@@ -79,8 +79,6 @@ def run(arguments: argparse.Namespace) -> None:
     if arguments.days is not None:
         if arguments.band != "visible":
             raise InputError(f"band is {arguments.band}; allowed with --days is visible.")
-        if arguments.region is not None:
-            raise InputError("--region is a region without sun; allowed is it without --days.")
         write_row(arguments)
         return
     require_no_tan(arguments)

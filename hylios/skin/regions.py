@@ -112,6 +112,36 @@ class Region:
         """Logarithm of the melanin that sun has added, where it is u around the region."""
         return np.asarray(u) * (1.0 + (self.tan - 1.0) * np.minimum(weight, 1.0))
 
+    def own_states(self, states: ArrayLike, weight: float = 1.0) -> NDArray[np.float64]:
+        """States (N, 5) of the skin around the region with the tan and redness of the region.
+
+        `of` makes the region's specimens of those in them. Melanin keeps its places.
+
+        Parameters
+        ----------
+        states : (N, 4) or (N, 5) array
+            Of the skin around it, as `hylios.Skin.at` takes them.
+
+        Examples
+        --------
+        >>> import hylios
+        >>> from hylios.skin.regions import region
+        >>> skin = hylios.skin_type("II")
+        >>> tanned = skin.states(hylios.Exposures([0], [11.0]), [240.0])
+        >>> mole = region("moles", skin.specimen.pigmentation)
+        >>> float(mole.own_states(tanned)[0, :3].sum().round(6))
+        1.0
+        """
+        states = np.atleast_2d(np.asarray(states, float))
+        melanin, thickness = states[:, :3], states[:, 3:4]
+        total = melanin.sum(axis=1, keepdims=True)
+        tan = np.log(np.where(total > 0.0, total, 1.0))
+        blood = states[:, 4:5] if states.shape[1] == 5 else np.ones_like(thickness)
+        redness = np.minimum(self.own_tan(1.0, weight), 1.0)
+        return np.hstack(
+            [melanin * np.exp(self.own_tan(tan, weight) - tan), thickness, blood**redness]
+        )
+
     def of(self, specimen: Specimen, weight: float = 1.0) -> Specimen:
         """The specimen of the region where the skin around it is a specimen.
 

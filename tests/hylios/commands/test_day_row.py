@@ -9,10 +9,11 @@ import pytest
 from matplotlib.image import imread
 
 import hylios
-from hylios.adding import colours
+from hylios.adding import colours, spectra
 from hylios.commands.cli import main
 from hylios.lab.colour import srgb
 from hylios.lab.pictures import LABEL_HEIGHT, labelled, swatches
+from hylios.quadrature import skin_quadrature
 
 
 def row(tmp_path, capsys, arguments):
@@ -43,6 +44,28 @@ def test_a_row_is_the_skin_on_its_days(tmp_path, capsys):
     assert np.all(pixels[:40, ::40] == expected) and np.all(pixels[:40, 39::40] == expected)
     assert pixels[40:].min() < 100 and pixels[-1].min() == 255
     assert "redness is an estimate" in notes and "the measured kinetics is fitted" in notes
+
+
+def test_a_row_of_a_region_is_the_region_in_its_own_tan(tmp_path, capsys):
+    """A mole keeps its melanin and thickens with the skin around it; a freckle tans by more."""
+    sun = "--days 0,10 --skin II --dose 0:11 --size 4"
+    around, freckle, mole = (
+        row(tmp_path, capsys, f"{sun} {region}")[0]
+        for region in ("", "--region freckles", "--region moles")
+    )
+    reds = [[int(line["srgb"][1:3], 16) for line in seen] for seen in (around, freckle, mole)]
+    fallen = [before - after for before, after in reds]
+    assert abs(fallen[2]) <= 2 < 5 < fallen[0] < fallen[1]
+
+    skin = hylios.skin_type("II")
+    state = skin.states(hylios.Exposures([0], [11.0]), [240])[0]
+    grown = state[:3].sum() ** 1.5 * 1.5
+    specimen = skin.at([*(state[:3] / state[:3].sum() * grown), state[3]])
+    few = skin_quadrature(8)
+    light = spectra([specimen], few.wavelengths, angle=8.0).total @ few.weights.T
+    seen = np.round(255.0 * srgb(light))[0].astype(int)
+    told = [int(freckle[1]["srgb"][first : first + 2], 16) for first in (1, 3, 5)]
+    assert np.abs(seen - told).max() <= 1
 
 
 def test_by_the_thesis_nothing_reddens_or_is_marked(tmp_path, capsys):

@@ -106,9 +106,3 @@ def test_a_region_has_the_reflectance_of_its_specimen(capsys):
     right = spectrum(palm, [600.0], rays=500, seed=1).total
     assert table(printed.out)["total"] == pytest.approx(right, rel=1e-6)
     assert "note: of palms it is an ESTIMATE: tan." in printed.err
-
-
-def test_a_region_is_not_of_a_tan(tmp_path, capsys):
-    output = tmp_path / "row.png"
-    assert main(f"swatch --skin II --region palms --days 9 -o {output}".split()) == 2
-    assert "without --days" in capsys.readouterr().err

@@ -132,15 +132,14 @@ class Region:
         >>> float(mole.own_states(tanned)[0, :3].sum().round(6))
         1.0
         """
-        states = np.atleast_2d(np.asarray(states, float))
-        melanin, thickness = states[:, :3], states[:, 3:4]
-        total = melanin.sum(axis=1, keepdims=True)
+        around = np.atleast_2d(np.asarray(states, float))
+        own = np.ones((len(around), 5))
+        own[:, : around.shape[1]] = around
+        total = own[:, :3].sum(axis=1, keepdims=True)
         tan = np.log(np.where(total > 0.0, total, 1.0))
-        blood = states[:, 4:5] if states.shape[1] == 5 else np.ones_like(thickness)
-        redness = np.minimum(self.own_tan(1.0, weight), 1.0)
-        return np.hstack(
-            [melanin * np.exp(self.own_tan(tan, weight) - tan), thickness, blood**redness]
-        )
+        own[:, :3] *= np.exp(self.own_tan(tan, weight) - tan)
+        own[:, 4] **= np.minimum(self.own_tan(1.0, weight), 1.0)
+        return own
 
     def of(self, specimen: Specimen, weight: float = 1.0) -> Specimen:
         """The specimen of the region where the skin around it is a specimen.

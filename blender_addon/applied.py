@@ -60,7 +60,8 @@ def is_left_behind(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     is_moved = (way == SCENE and former[:2] != now[:2]) or (
         way == SPEED and former[2] * now[3] != now[2] * former[3]
     )
-    return is_moved and not timeline.has_own_keys(obj, tuple(settings.keyed))
+    is_own = timeline.is_driven(obj) or timeline.has_own_keys(obj, tuple(settings.keyed))
+    return is_moved and not is_own
 
 
 def text_of(obj: bpy.types.Object, scene: bpy.types.Scene, frames: Frames | None = None) -> str:

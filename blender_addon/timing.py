@@ -90,8 +90,10 @@ def frames(settings: SkinTanSettings, days: Pair, seen: applied.Frames) -> Pair:
 def key(
     obj: bpy.types.Object, scene: bpy.types.Scene, days: Pair, at: Pair, changes: Changes
 ) -> list[str]:
-    """Key the days at frames unless the keys are the artist's own; sentences on that."""
+    """Key the days at frames unless the artist keys or drives them; sentences on that."""
     settings = settings_of(obj)
+    if timeline.is_driven(obj) and not timeline.has_keys(obj):
+        return []  # keys would have no effect
     said = _note_own_day(obj, changes)
     if settings.timing == OWN:
         timeline.set_first_day(obj, days[0], changes)

@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from .animated import origin
+from .animated import actions
 from .ownership import FORMER, MADE
 
 COSMETIC = frozenset(
@@ -103,7 +103,7 @@ def _animation(block: Any) -> tuple[Any, ...] | None:
     animation = block.animation_data
     if animation is None:
         return None
-    return origin(animation.action), len(animation.drivers), len(animation.nla_tracks)
+    return actions(animation), len(animation.drivers)
 
 
 def _keys(block: Any) -> dict[str, Any]:

@@ -1,13 +1,16 @@
 """Keys and drivers of an input of a node tree, moved to another input and back.
 
-An action that moves other trees too is copied first; the copy says in a custom property of what.
+Keys lie in the tree's action or in strips of the NLA. An action that moves other trees too is copied first; the copy says in a custom property of what.
 """
 
+import itertools
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 import bpy
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
+
+from hylios.errors import InputError
 
 from .changes import Changes
 from .ownership import is_local
@@ -21,16 +24,27 @@ COLOUR = 3
 
 
 def move(tree: Any, start: Any, end: Any, changes: Changes) -> bool:
-    """Have what animates an input of a tree animate another, and return whether anything does."""
+    """Have what animates an input of a tree animate another, and return whether anything does.
+
+    Raises
+    ------
+    InputError
+        If keys that other trees share are in the NLA's tweak mode, in which they cannot be copied.
+    """
     former, new = _path(start), _path(end)
     animation = tree.animation_data
     if animation is None:
         return False
-    curves = list(_of_path(animation.drivers, former))
-    if any(_of_path(_of_action(animation), former)):
-        changes.on_failure(assign, animation, animation.action, animation.action_slot)
-        _make_own(animation)
-        curves += _of_path(_of_action(animation), former)
+    keyed = _keyed(animation, former)
+    if animation.use_tweak_mode and not all(_is_own(source) for source in keyed):
+        raise InputError(
+            "Keys of a painted colour are in tweak mode; leave tweak mode in the Nonlinear "
+            "Animation editor (Tab)."
+        )
+    for source in keyed:
+        changes.on_failure(assign, source, source.action, source.action_slot)
+    _make_own(keyed)
+    curves = _curves(animation, keyed, former)
     for curve in curves:
         changes.set(curve, "data_path", new)
     return bool(curves)
@@ -42,23 +56,24 @@ def move_back(tree: Any, start: Any, end: Any) -> None:
     animation = tree.animation_data
     if animation is None:
         return
-    curves = list(_of_path(animation.drivers, former))
-    if any(_of_path(_of_action(animation), former)):
-        _make_own(animation)
-        curves += _of_path(_of_action(animation), former)
-    for curve in curves:
+    keyed = _keyed(animation, former)
+    _make_own(keyed)
+    for curve in _curves(animation, keyed, former):
         curve.data_path = new
-    if curves and animation.action is not None:
-        _restore_action(animation)
+    for source in keyed:
+        _restore_action(source)
 
 
 def part(tree: Any, ends: Iterable[Any]) -> None:
     """Give a copy of a tree keys of its own, where inputs of it are keyed."""
     animation = tree.animation_data
     if animation is not None:
-        curves = _of_action(animation)
-        if any(any(_of_path(curves, _path(end))) for end in ends):
-            _make_own(animation)
+        _make_own([source for end in ends for source in _keyed(animation, _path(end))])
+
+
+def actions(animation: Any) -> list[bpy.types.Action | None]:
+    """Of a tree and the strips that move it, what they are or were copied of."""
+    return [origin(source.action) for source in _sources(animation)]
 
 
 def origin(action: bpy.types.Action | None) -> bpy.types.Action | None:
@@ -77,10 +92,34 @@ def _path(end: Any) -> str:
     return end.path_from_id("default_value")
 
 
-def _of_action(animation: Any) -> list[Any]:
-    if animation.action is None or animation.action_slot is None:
+def _sources(animation: Any) -> Iterator[Any]:
+    """What has an action: the animation itself and the strips of its NLA."""
+    yield animation
+    for track in animation.nla_tracks:
+        yield from _strips(track.strips)
+
+
+def _strips(strips: Any) -> Iterator[Any]:
+    for strip in strips:
+        yield strip
+        yield from _strips(strip.strips)
+
+
+def _keyed(animation: Any, path: str) -> list[Any]:
+    """What of a tree's animation has keys for a path."""
+    return [source for source in _sources(animation) if any(_of_path(_of_action(source), path))]
+
+
+def _curves(animation: Any, keyed: Iterable[Any], path: str) -> list[Any]:
+    """Drivers and keys of a path."""
+    of_keys = (_of_path(_of_action(source), path) for source in keyed)
+    return [*_of_path(animation.drivers, path), *itertools.chain.from_iterable(of_keys)]
+
+
+def _of_action(source: Any) -> list[Any]:
+    if source.action is None or source.action_slot is None:
         return []
-    bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
+    bag = action_get_channelbag_for_slot(source.action, source.action_slot)
     return list(bag.fcurves) if bag else []
 
 
@@ -88,18 +127,25 @@ def _of_path(curves: Any, path: str) -> Iterator[Any]:
     return (curve for curve in curves if curve.data_path == path and curve.array_index < COLOUR)
 
 
-def _make_own(animation: Any) -> None:
-    """Have an action that moves one tree alone: Blender removes a node's keys with the node."""
-    action, slot = animation.action, animation.action_slot
-    if is_local(action) and len(slot.users()) < 2:
-        return
-    own = action.copy()
-    own[COPIED] = origin(action)
-    assign(animation, own, own.slots[slot.identifier])
+def _is_own(source: Any) -> bool:
+    return is_local(source.action) and len(source.action_slot.users()) < 2
 
 
-def _restore_action(animation: Any) -> None:
-    action, slot = animation.action, animation.action_slot
+def _make_own(keyed: Iterable[Any]) -> None:
+    """Have actions that move one tree alone: Blender removes a node's keys with the node."""
+    copies: dict[Any, Any] = {}
+    for source in keyed:
+        action, slot = source.action, source.action_slot
+        if action not in copies:
+            if _is_own(source):
+                continue
+            copies[action] = action.copy()
+            copies[action][COPIED] = origin(action)
+        assign(source, copies[action], copies[action].slots[slot.identifier])
+
+
+def _restore_action(source: Any) -> None:
+    action, slot = source.action, source.action_slot
     former = action.get(COPIED)
     former_slot = former.slots.get(slot.identifier) if former is not None else None
     if former_slot is None:
@@ -107,7 +153,7 @@ def _restore_action(animation: Any) -> None:
     bags = (action_get_channelbag_for_slot(*one) for one in ((action, slot), (former, former_slot)))
     now, before = ([] if bag is None else list(bag.fcurves) for bag in bags)
     if _recorded(now) == _recorded(before):
-        assign(animation, former, former_slot)
+        assign(source, former, former_slot)
 
 
 def _recorded(curves: list[Any]) -> list[Any]:

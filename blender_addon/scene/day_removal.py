@@ -35,8 +35,6 @@ def remove_day(obj: bpy.types.Object, changes: Changes, own: str = "") -> list[s
     own : str
         The artist's own number of that name, as `own_day` told it before Apply.
     """
-    if is_driven(obj):
-        return [f"A driver governs the property {DAY_PROPERTY!r}, which stays."]
     animation: Any = obj.animation_data
     if animation is not None and _curve(animation) is not None:
         _leave(obj, animation, changes)
@@ -45,6 +43,8 @@ def remove_day(obj: bpy.types.Object, changes: Changes, own: str = "") -> list[s
     for strip in stay:
         if not _others(obj, strip.action_slot):
             changes.at_the_end(partial(_empty, strip.action, strip.action_slot))
+    if is_driven(obj):
+        return [*said, f"A driver governs the property {DAY_PROPERTY!r}, which stays."]
     if shown_day(obj) is None and DAY_PROPERTY in obj:
         return [*said, f"The property {DAY_PROPERTY!r} holds no day and stays."]
     changes.at_the_end(partial(_remove_property, obj, own))

@@ -20,7 +20,7 @@ COORDINATES = ("co", "handle_left", "handle_right")
 ANIMATION, ACTION, SLOT, BAG, LAYER = "animation", "action", "slot", "channels", "layer"
 """What was made for the day, as an action says in a custom property."""
 
-DRIVEN = "A driver governs the day of the tan, so its keys have no effect."
+DRIVEN = "A driver governs the day of the tan, so keys have no effect."
 
 SAME = 1e-3
 """Frames and days no further apart are the same."""
@@ -71,7 +71,7 @@ def shown_day(obj: bpy.types.Object) -> float | None:
 
 
 def is_driven(obj: bpy.types.Object) -> bool:
-    """Whether a driver governs the day, so that its keys have no effect."""
+    """Whether a driver governs the day, so that keys have no effect."""
     drivers: Any = obj.animation_data.drivers if obj.animation_data else ()
     return any(driver.data_path == DATA_PATH and not driver.mute for driver in drivers)
 

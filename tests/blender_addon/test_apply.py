@@ -8,6 +8,7 @@ import pytest
 from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import LOOK_IMAGES, OWN_IMAGES, apply, of_role, pixels, tan_groups, tan_object
 
+from blender_addon import applied
 from blender_addon.model import catalogue
 from hylios.table import read_table
 from hylios.table.provenance import minimal_doses
@@ -249,6 +250,9 @@ def test_a_driver_of_the_day_is_told(body, capfd):
     body.driver_add('["tan_day"]').driver.expression = "5.0"
     assert apply() == {"FINISHED"}
     assert "A driver governs the day of the tan" in capfd.readouterr().out
+    assert body.animation_data.action is None  # keys would lie under the driver, without effect
+    bpy.context.scene.frame_end = 99
+    assert not applied.is_left_behind(body, bpy.context.scene)
 
 
 def test_an_empty_slot_for_others_with_the_mesh_is_told(body, capfd):

@@ -198,6 +198,19 @@ def test_reset_says_that_a_driver_governs_the_day(body, capfd):
     assert "A driver governs the day of the tan" in capfd.readouterr().out
 
 
+def test_keys_under_a_driver_go_with_the_tan_and_the_driver_stays(body, capfd):
+    apply(body)
+    body.driver_add('["tan_day"]').driver.expression = "3.0"
+    body.skin_tan.last_day = 20.0
+    apply(body)  # so that they are right should the driver go
+    assert keys(body) == [(1, 0), (250, 20)]
+    capfd.readouterr()
+    bpy.ops.skin_tan.remove()
+    assert "A driver governs the property 'tan_day', which stays" in capfd.readouterr().out
+    assert not bpy.data.actions and body.animation_data.action is None
+    assert day_at(body, 50) == 3.0 and len(body.animation_data.drivers) == 1
+
+
 def live_shows():
     live.show_changes()
     live.make_exact()

@@ -8,7 +8,7 @@ from bpy_extras.anim_utils import action_get_channelbag_for_slot
 from scenes import apply, tan_object
 from state import state
 
-from blender_addon.scene import recolour
+from blender_addon.scene import animated, recolour
 
 COLOURS = {1: (0.6, 0.42, 0.33, 1.0), 100: (0.1, 0.1, 0.8, 1.0)}
 
@@ -40,6 +40,18 @@ def driven(name: str):
     return material
 
 
+def in_strips(name: str):
+    """Two strips of one action, the second at half speed, which begins at frame 200."""
+    material = keyed(name)
+    animation = material.node_tree.animation_data
+    strips = animation.nla_tracks.new().strips
+    for start in (1, 200):
+        strip = strips.new("colours", start, animation.action)
+    strip.scale = 2.0
+    animation.action = None
+    return material
+
+
 def painted(material) -> tuple:
     """What the tan multiplies."""
     (factor,) = recolour.inserted(material.node_tree, recolour.FACTOR)
@@ -50,7 +62,7 @@ def all_of_file() -> tuple:
     trees = [material.node_tree for material in bpy.data.materials]
     moved = [
         (
-            tree.animation_data and tree.animation_data.action,
+            tree.animation_data and animated.actions(tree.animation_data),
             sorted(curve.data_path for curve in curves_of(tree)),
         )
         for tree in trees
@@ -63,13 +75,14 @@ def curves_of(tree) -> list:
     if animation is None:
         return []
     curves = list(animation.drivers)
-    if animation.action:
-        bag = action_get_channelbag_for_slot(animation.action, animation.action_slot)
-        curves += bag.fcurves
+    strips = [strip for track in animation.nla_tracks for strip in track.strips]
+    for source in (animation, *strips):
+        if source.action:
+            curves += action_get_channelbag_for_slot(source.action, source.action_slot).fcurves
     return curves
 
 
-@pytest.mark.parametrize("make", [keyed, driven])
+@pytest.mark.parametrize("make", [keyed, driven, in_strips])
 def test_an_animated_colour_goes_on_and_comes_back(table_path, make, tmp_path, capfd):
     obj = body(table_path, [make("skin")])
     bpy.context.scene.frame_set(1)
@@ -77,8 +90,11 @@ def test_an_animated_colour_goes_on_and_comes_back(table_path, make, tmp_path, c
     apply(obj)
     assert "Keys and drivers of a painted colour" in capfd.readouterr().out
     bpy.context.scene.frame_set(100)
-    wanted = COLOURS[100][:3] if make is keyed else np.divide(100.0, (200, 201, 202))
+    wanted = np.divide(100.0, (200, 201, 202)) if make is driven else COLOURS[100][:3]
     assert painted(bpy.data.materials["skin"]) == pytest.approx(wanted)
+    if make is in_strips:
+        bpy.context.scene.frame_set(398)
+        assert painted(bpy.data.materials["skin"]) == pytest.approx(wanted)
     apply(obj)
     bpy.context.scene.frame_set(1)
     bpy.ops.skin_tan.remove()
@@ -95,9 +111,10 @@ def test_keys_go_on_in_a_saved_file(table_path, tmp_path):
         assert painted(bpy.data.materials["skin"]) == pytest.approx(colour[:3])
 
 
-def test_another_tree_with_the_action_keeps_its_own(table_path):
+@pytest.mark.parametrize("make", [keyed, in_strips])
+def test_another_tree_with_the_action_keeps_its_own(table_path, make):
     """A material that others show is copied, and its action with it."""
-    skin = keyed("skin")
+    skin = make("skin")
     prop = body(table_path, [skin])
     prop.name = "Prop"
     obj = body(table_path, [skin])
@@ -112,13 +129,21 @@ def test_another_tree_with_the_action_keeps_its_own(table_path):
     assert all_of_file() == before
 
 
-@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
-@pytest.mark.parametrize("applied", [True, False])
-def test_a_duplicate_and_its_original_both_go_back(table_path, order, applied):
-    skin = keyed("skin")
+@pytest.mark.parametrize(
+    ("make", "order", "applied"),
+    [
+        (keyed, (0, 1), True),
+        (keyed, (1, 0), True),
+        (keyed, (1, 0), False),
+        (in_strips, (0, 1), False),
+        (in_strips, (1, 0), True),
+    ],
+)
+def test_a_duplicate_and_its_original_both_go_back(table_path, make, order, applied):
+    skin = make("skin")
     first = body(table_path, [skin])
     bpy.context.scene.frame_set(1)
-    before, action = state()["materials"], skin.node_tree.animation_data.action
+    before, actions = state()["materials"], animated.actions(skin.node_tree.animation_data)
     paths = [curve.data_path for curve in curves_of(skin.node_tree)]
     apply(first)
     second = first.copy()
@@ -138,7 +163,8 @@ def test_a_duplicate_and_its_original_both_go_back(table_path, order, applied):
     assert state()["materials"] == before
     assert [obj.material_slots[0].material for obj in bodies] == [skin, skin]
     assert [curve.data_path for curve in curves_of(skin.node_tree)] == paths
-    assert skin.node_tree.animation_data.action == action and list(bpy.data.actions) == [action]
+    assert animated.actions(skin.node_tree.animation_data) == actions
+    assert len(bpy.data.actions) == 1
 
 
 def test_an_error_leaves_the_keys_where_they_were(table_path, monkeypatch):

@@ -71,10 +71,11 @@ def mask_for_brush(
             obj.vertex_groups.active_index = obj.vertex_groups[source.name].index
             return kind, f"{_legend(mask, words, 'Weight 0', '1')}: painting {source.name!r}."
         if source is not None and kind == "IMAGE":
-            _require_no_skin(obj, mask)
+            _require_no_skin(mask.image.name, mask.image in painted.painted_images(obj))
             _activate_image(mesh, mask)
             return kind, f"{_legend(mask, words)}: painting {source.name!r}."
         return "COLOUR", _new_for_brush(obj, settings, mask, source, (name, domain))
+    _require_no_skin(source.name, source.name in painted.painted_attributes(obj))
     mask_colours.activate(mesh, source.name)
     also = _also_read(obj, source.name)
     return "COLOUR", f"{_legend(mask, words)}: painting {source.name!r}.{also}"
@@ -143,12 +144,12 @@ def _on_left_out(request: ClothesRequest) -> str:
     )
 
 
-def _require_no_skin(obj: bpy.types.Object, mask: masks.Mask) -> None:
+def _require_no_skin(name: str, is_skin: bool) -> None:
     """Raise InputError where a brush on a mask would paint the skin itself."""
-    if mask.image in painted.painted_images(obj):
+    if is_skin:
         raise InputError(
-            f"The mask {mask.image.name!r} is the colour of the skin, which Paint Mask would paint "
-            "over; choose another mask, or empty the field for a new one."
+            f"The mask {name!r} is the colour of the skin, which Paint Mask would paint over; "
+            "choose another mask, or empty the field for a new one."
         )
 
 

@@ -1,5 +1,6 @@
 """The colour that an artist gave to a material, estimated without rendering."""
 
+from collections.abc import Iterator
 from typing import Any, cast
 
 import bpy
@@ -57,8 +58,32 @@ def painted_images(obj: bpy.types.Object) -> set[bpy.types.Image]:
     return {source for source in sources if isinstance(source, bpy.types.Image)}
 
 
+def painted_attributes(obj: bpy.types.Object) -> set[str]:
+    """Names of attributes that the colour of an object's materials follows."""
+    shown = [slot.material for slot in obj.material_slots if slot.material]
+    sources = [
+        source
+        for material in shown
+        for path, _, end in shaders(material)
+        for source in _sources(material, path, end)
+    ]
+    usual = cast(Any, obj.data).attributes.default_color_name
+    return {source or usual for source in sources if isinstance(source, str)}
+
+
 def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> Any:
     """The image or the colour (3,) that leads to an input, the nearest first."""
+    sources = _sources(material, path, end)
+    return next((source for source in sources if not isinstance(source, str)), None)
+
+
+def _sources(
+    material: bpy.types.Material, path: tuple[Any, ...], end: Any
+) -> Iterator[bpy.types.Image | NDArray[np.float64] | str]:
+    """What leads to an input, the nearest first: images, colours (3,), names of attributes.
+
+    The name of the attribute that the mesh shows by default is empty.
+    """
     waiting: list[tuple[Any, tuple[Any, ...]]] = [(end, path)]
     seen: set[tuple[Any, str]] = set()
     while waiting:
@@ -67,7 +92,7 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
             # A plain colour counts only where it is the shader's, maybe through groups' inputs.
             if socket == end or getattr(socket.node, "node_tree", None) is not None:
                 if socket.type == "RGBA":
-                    return np.array(socket.default_value[:3], dtype=float)
+                    yield np.array(socket.default_value[:3], dtype=float)
             continue
         node, output = socket.links[0].from_node, socket.links[0].from_socket.identifier
         if (node, output) in seen:
@@ -76,14 +101,18 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
         if node.get(INSERTED) == FACTOR:
             # What the tan multiplies is the painted colour, not what it multiplies it by.
             if not node.inputs[0].is_linked:
-                return np.array(node.inputs[0].default_value[:3], dtype=float)
+                yield np.array(node.inputs[0].default_value[:3], dtype=float)
             waiting.insert(0, (node.inputs[0], around))
             continue
         image, inner = (getattr(node, name, None) for name in ("image", "node_tree"))
         if node.bl_idname == "ShaderNodeTexImage" and image and _is_colour(image):
-            return image
+            yield image
         if node.bl_idname == "ShaderNodeRGB":
-            return np.array(node.outputs[0].default_value[:3], dtype=float)
+            yield np.array(node.outputs[0].default_value[:3], dtype=float)
+        if node.bl_idname == "ShaderNodeVertexColor":
+            yield node.layer_name
+        if node.bl_idname == "ShaderNodeAttribute" and node.attribute_type == "GEOMETRY":
+            yield node.attribute_name
         if inner is not None:
             waiting += [(exit_, (*around, inner)) for exit_ in _exits(inner, output)]
         elif node.bl_idname == "NodeGroupInput" and around:
@@ -91,7 +120,6 @@ def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> An
             waiting += [(entry, around[:-1]) for entry in _entries(outer, group, output)]
         else:
             waiting += [(entry, around) for entry in node.inputs if entry.is_linked]
-    return None
 
 
 def _exits(group: Any, identifier: str) -> list[Any]:

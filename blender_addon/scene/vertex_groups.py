@@ -89,6 +89,9 @@ def new_attribute(
 ) -> str:
     """Make an attribute of a name that is free, and return the name that it got.
 
+    Which colours the mesh shows by default, and which a brush paints on, stays as it was: Blender
+    would have its first colours be both.
+
     Raises
     ------
     InputError
@@ -99,11 +102,13 @@ def new_attribute(
     while name in attributes:
         number += 1
         name = f"{stem}.{number:03d}"
+    colours = attributes.active_color_name, attributes.default_color_name
     made = attributes.new(name, data_type, domain)
     if made is None:
         raise InputError(f"Blender makes no attribute {name!r} on the mesh {mesh.name!r}.")
     name = made.name
     changes.on_failure(remove_attribute, mesh, name)
+    attributes.active_color_name, attributes.default_color_name = colours
     return name
 
 

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from artist_skins import textured
+from artist_skins import add, plain, textured
 from scenes import apply
 
 from blender_addon.scene import masks
@@ -101,6 +101,36 @@ def test_the_skin_s_own_texture_is_not_painted_as_a_mask(body):
     body.skin_tan.mask.image = scar
     assert bpy.ops.skin_tan.paint_mask() == {"FINISHED"}
     assert bpy.context.tool_settings.image_paint.canvas == scar
+
+
+def shows_colours(name: str, layer: str):
+    """A material in the colours of an attribute; without a name, of the mesh's usual one."""
+    material = plain(name)
+    tree = material.node_tree
+    colours = add(tree, "ShaderNodeVertexColor", layer_name=layer)
+    tree.links.new(colours.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    return material
+
+
+@pytest.mark.parametrize("layer", ["Scar", ""])
+def test_colours_of_the_skin_are_not_painted_as_a_mask(body, layer):
+    body.data.materials.append(shows_colours("Skin", layer))
+    for name in ("Scar", "Dust"):
+        body.data.color_attributes.new(name, "BYTE_COLOR", "CORNER")
+    body.skin_tan.mask.source = "Scar"
+    with pytest.raises(RuntimeError, match="'Scar' is the colour of the skin"):
+        bpy.ops.skin_tan.paint_mask()
+    body.skin_tan.mask.source = "Dust"
+    assert bpy.ops.skin_tan.paint_mask() == {"FINISHED"}
+    assert body.data.attributes.default_color_name == "Scar"
+
+
+def test_a_mask_is_not_what_materials_show_by_default(body):
+    """The first colours of a mesh would be, in place of none."""
+    body.data.materials.append(shows_colours("Skin", ""))
+    assert bpy.ops.skin_tan.paint_mask() == {"FINISHED"}
+    attributes = body.data.attributes
+    assert attributes.default_color_name == "" and attributes.active_color_name == "Sun Mask"
 
 
 def test_masks_are_offered_before_textures_of_the_skin(body):

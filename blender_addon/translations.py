@@ -159,6 +159,7 @@ GERMAN = {
     "The mesh does not have this mask:": "Dem Mesh fehlt diese Maske:",
     "choose another one": "eine andere wählen",
     "No material: a new skin is made": "Kein Material: neue Haut",
+    "Remove Tan to change this": "Erst die Bräune entfernen",
     "Light spreads as in the skin type;": "Licht läuft wie im Hauttyp;",
     "exactly, in a table built anew:": "genau in einer neuen Tabelle:",
 }

@@ -1,6 +1,7 @@
 """Keys and drivers of an input of a node tree, moved to another input and back.
 
-Keys lie in the tree's action or in strips of the NLA. An action that moves other trees too is copied first; the copy says in a custom property of what.
+Keys lie in the tree's action or in strips of the NLA. An action that moves other trees too is
+copied first; the copy says in a custom property of what.
 """
 
 import itertools

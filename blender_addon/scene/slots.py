@@ -67,6 +67,14 @@ def has_tan(obj: bpy.types.Object) -> bool:
     return settings.group is not None or is_timed or any(shown_groups(obj))
 
 
+def is_all_tanned(obj: bpy.types.Object) -> bool:
+    """Whether every material that is ticked to tan shows a tan, and there is one."""
+    shown = materials_of(obj)
+    entries = remembered(obj).materials
+    ticked = [entry.material for entry in entries if entry.tans and entry.material in shown]
+    return bool(ticked) and all(any(tan_groups(tree_of(block))) for block in ticked)
+
+
 def shown_trees(obj: bpy.types.Object, group: bpy.types.NodeTree) -> Iterator[bpy.types.NodeTree]:
     """Local node trees of an object that lead to a group, from its materials on."""
     for block in chain(materials_of(obj), group):

@@ -3,6 +3,7 @@
 import bpy
 
 from ..props import settings_of
+from ..scene.slots import is_all_tanned
 
 
 def draw_materials(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
@@ -15,6 +16,10 @@ def draw_materials(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     if len(listed) < len(shown):
         layout.operator("skin_tan.list_materials", icon="VIEWZOOM")
     if shown:
-        layout.prop(settings, "new_material")
+        row = layout.row()
+        row.enabled = not is_all_tanned(obj)  # which gets a new material is settled
+        row.prop(settings, "new_material")
+        if not row.enabled:
+            layout.label(text="Remove Tan to change this", icon="INFO")
     else:
         layout.label(text="No material: a new skin is made", icon="INFO")

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import bpy
 import pytest
+from artist_skins import plain, wear
 from scenes import tan_object
 
 from blender_addon.model import catalogue, doses
@@ -19,13 +20,21 @@ ICONS = {
 class Layout:
     """Records the labels; refuses properties, operators and icons that do not exist."""
 
-    ATTRIBUTES = {"use_property_split", "use_property_decorate", "scale_y", "emboss", "active"}
+    ATTRIBUTES = {
+        "use_property_split",
+        "use_property_decorate",
+        "scale_y",
+        "emboss",
+        "active",
+        "enabled",
+    }
 
     def __init__(self, labels: list[str]):
         object.__setattr__(self, "labels", labels)
 
     def __setattr__(self, name, value):
         assert name in self.ATTRIBUTES and name in bpy.types.UILayout.bl_rna.properties
+        object.__setattr__(self, name, value)
 
     def row(self, align=False):
         return Layout(self.labels)
@@ -121,6 +130,17 @@ def test_with_every_setting(table_path):
     assert "30 SED: 4.2 h of strong sun" in labels
     bpy.ops.skin_tan.apply()
     assert "This frame shows day 0.0" in drawn()
+
+
+def test_new_material_is_settled_once_all_that_is_ticked_has_a_tan(table_path):
+    obj = tan_object(table_path, [1.0, 1.0])
+    wear(obj, [plain("skin"), plain("ears")])
+    assert "Remove Tan to change this" not in drawn()
+    bpy.ops.skin_tan.apply()
+    assert "Remove Tan to change this" in drawn()
+    obj.data.materials[1] = plain("lips")
+    obj.skin_tan.materials[1].material = obj.data.materials[1]
+    assert "Remove Tan to change this" not in drawn()
 
 
 def test_a_region_says_where_it_lies(table_path):

@@ -10,8 +10,12 @@ def lagrange(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
     """
     apart = nodes[:, None] - nodes[None, :]
     np.fill_diagonal(apart, 1.0)
-    between = places[:, None] - nodes
-    hit = between == 0.0
-    terms = 1.0 / (np.where(hit, 1.0, between) * apart.prod(axis=1))
-    terms = np.where(hit.any(axis=1, keepdims=True), hit, terms)
-    return terms / terms.sum(axis=1, keepdims=True)
+    terms = places[:, None] - nodes
+    hit = terms == 0.0
+    terms[hit] = 1.0
+    np.divide(1.0 / apart.prod(axis=1), terms, out=terms)
+    if hit.any():
+        some = hit.any(axis=1)
+        terms[some] = hit[some]
+    terms /= terms.sum(axis=1, keepdims=True)
+    return terms

@@ -15,6 +15,7 @@ from hylios.near_far import FARTHEST, NEAREST, burley_edge_spread, edge_spread
 from hylios.skin import Skin
 from hylios.skin.specimen import Specimen
 from hylios.table import LookAxes
+from hylios.threads import one_thread
 
 DISTANCES = np.geomspace(NEAREST, FARTHEST, 40)
 """Distances in mm from the edge at which spreads are compared."""
@@ -146,8 +147,10 @@ def fitted(
         ]
         return np.concatenate([np.concatenate(rows, axis=1), ridge])
 
-    solution = least_squares(misfit, np.zeros(2 * count), jac=slope, max_nfev=100)  # pyright: ignore
-    return _told(solution.x, solution.jac, float(np.sum(solution.fun**2)), len(walked), wanted)
+    with one_thread():
+        start = np.zeros(2 * count)
+        solution = least_squares(misfit, start, jac=slope, max_nfev=100)  # pyright: ignore
+        return _told(solution.x, solution.jac, float(np.sum(solution.fun**2)), len(walked), wanted)
 
 
 def _told(

@@ -10,14 +10,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from hylios.adding import solve
+from hylios.adding import spectra
 from hylios.errors import InputError
 from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin
 from hylios.skin.skin import MOST_BLOOD
 from hylios.table import LookAxes
 from hylios.tanning import KINETICS, Exposures, Spread, spread_of
-from hylios.tissue import Stack
 
 DAYS = 60
 MOST_EXPOSURES = 11
@@ -74,8 +73,8 @@ def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
         exposures = random.integers(1, MOST_EXPOSURES + 1)
         when = random.choice(hours, exposures, replace=False)
         schedule[when] = skin.mmd * random.uniform(LEAST_DOSE, MOST_DOSE, exposures)
-    history = skin.history(Exposures(np.arange(hours), doses), hours)
-    return history.states[:, ::6].reshape(-1, 4)
+    times = np.arange(0, hours + 1, 6)
+    return skin.states(Exposures(np.arange(hours), doses), times).reshape(-1, 4)
 
 
 def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
@@ -223,8 +222,7 @@ def _lightness(skin: Skin, axes: LookAxes, melanin: np.ndarray) -> np.ndarray:
     """Lightness (N, 3), as L*, of three wavelengths at contents of melanin (N,)."""
     states = axes.states(np.stack([melanin, *(3 * [np.zeros_like(melanin)])], axis=-1))
     specimens = [skin.at(state) for state in states]
-    total = [solve([Stack.of(one, nm) for one in specimens]).total for nm in SEEN_NM]
-    return 116.0 / np.sqrt(len(SEEN_NM)) * np.cbrt(np.transpose(total))
+    return 116.0 / np.sqrt(len(SEEN_NM)) * np.cbrt(spectra(specimens, SEEN_NM).total)
 
 
 def _knots(lowest: float, highest: float, count: int) -> np.ndarray:

@@ -33,10 +33,11 @@ WATER = 1.33
 STATES_TOGETHER = 24
 """States in one piece of colours."""
 
-ULTRAVIOLET_SECONDS, COLOUR_SECONDS = 0.9, 0.8e-3
-PROFILE_SECONDS, PATH_SECONDS = 0.3, 5e-6
-"""About how long work takes on one core: the absorptance, a wavelength of a state, any profile, and
-an effective path of a state. Paths take a third in light skin, three times as much in dark skin."""
+ULTRAVIOLET_SECONDS, SURFACE_SECONDS, COLOUR_SECONDS = 0.6, 0.05, 0.8e-3
+KERNEL_SECONDS, PROFILE_SECONDS, PATH_SECONDS = 0.4, 0.03, 5e-6
+"""About how long work takes on one core: the absorptance, the surface at a wavelength, a wavelength
+of a state, loading the walk's kernels, any profile, and an effective path of a state. Paths take a
+third in light skin, three times as much in dark skin."""
 
 
 @dataclass(frozen=True)
@@ -169,19 +170,22 @@ def _profiles(request: Request) -> Iterator[Piece]:
     settings = request.settings
     if settings.has_profile:
         paths = len(request.walked_states) * 0.25 / settings.profile_error**2
-        size = PROFILE_SECONDS + paths * PATH_SECONDS
+        size, first = PROFILE_SECONDS + paths * PATH_SECONDS, KERNEL_SECONDS
         for band in skin_quadrature(settings.profile_wavelengths).wavelengths:
             name = f"profile-{band:g}nm"
-            yield Piece(name, "profile", size, wavelength=float(band))
+            yield Piece(name, "profile", first + size, wavelength=float(band))
+            first = 0.0
 
 
 def _colours(request: Request) -> Iterator[Piece]:
-    settings = request.settings
-    seconds = COLOUR_SECONDS * (settings.nodes / NODES) ** 2 * wavelengths(settings).size
-    count = len(request.states)
+    settings, count = request.settings, len(request.states)
+    share = (settings.nodes / NODES) ** 2 * wavelengths(settings).size
+    surfaces = SURFACE_SECONDS * share
     for first in range(0, count, STATES_TOGETHER):
         last = min(first + STATES_TOGETHER, count)
-        yield Piece(f"colours-{first}", "colours", seconds * (last - first), first, last)
+        size = COLOUR_SECONDS * share * (last - first) + surfaces
+        yield Piece(f"colours-{first}", "colours", size, first, last)
+        surfaces = 0.0  # kept for the other states
 
 
 def _solved(request: Request, states: np.ndarray) -> dict[str, np.ndarray]:

@@ -78,31 +78,40 @@ def node_counts(bounds: np.ndarray, nodes: int) -> tuple[int, ...]:
     return tuple(max(LEAST_NODES, int(count)) for count in counts)
 
 
-def interpolation(made: Directions, squared: np.ndarray, weight: np.ndarray) -> np.ndarray:
+def interpolation(
+    made: Directions, squared: np.ndarray, weight: np.ndarray, row: np.ndarray, rows: int
+) -> np.ndarray:
     """Weighted sums of a function at some squares of q, as rows over its values at the nodes.
 
     Parameters
     ----------
-    squared, weight : (R, P) arrays
+    squared, weight : (K, P) arrays
+    row : (K,) array of int
+        Which of the R rows these belong to, ascending.
+    rows : int
+        R.
 
     Returns
     -------
     (R, N) array
     """
-    rows = squared.shape[0]
     part = np.searchsorted(made.bounds[1:-1], squared, side="right")
-    result = []
+    part[weight <= 0.0] = -1
+    result = np.zeros((rows, made.within(len(made.counts))))
     for segment, count in enumerate(made.counts):
-        row, column = np.nonzero((part == segment) & (weight > 0.0))
+        some = part == segment
+        targets = np.repeat(row, np.count_nonzero(some, axis=1))
+        if not targets.size:
+            continue
         upper = made.bounds[segment + 1]
         width = max(upper - made.bounds[segment], 1e-300)
-        depth = np.clip((upper - squared[row, column]) / width, 0.0, 1.0)
+        depth = np.clip((upper - squared[some]) / width, 0.0, 1.0)
         values = lagrange(_roots(count, segment > 0)[0], _place(np.sqrt(depth), segment > 0))
-        values *= weight[row, column, None]
-        target = row[:, None] * count + np.arange(count)
-        summed = np.bincount(target.ravel(), values.ravel(), minlength=rows * count)
-        result.append(summed.reshape(rows, count))
-    return np.concatenate(result, axis=1)
+        values *= weight[some][:, None]
+        first = np.flatnonzero(np.diff(targets, prepend=-1))
+        left = made.within(segment)
+        result[targets[first], left : left + count] = np.add.reduceat(values, first, axis=0)
+    return result
 
 
 @dataclass(frozen=True)

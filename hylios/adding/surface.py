@@ -3,6 +3,8 @@
 The rules of `hylios.transport.interfaces`, averaged over the surface's normals instead of drawn.
 """
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 
 from hylios.adding.directions import Directions, interpolation, legendre_roots
@@ -56,11 +58,9 @@ def from_inside(made: Directions, segments: int, above: float, roughness: float)
         return np.diag(reflectance), 1.0 - reflectance
     edges = np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
     turns = max(TURNS, made.counts[segments - 1] - 1)
-    reflected, crossed, back, _ = _rough(
-        cosine, index / above, roughness, edges, np.zeros(1), (TILTS, turns)
-    )
-    matrix = interpolation(made, squared * (1.0 - back**2), reflected)
-    return matrix[:, :count], crossed.sum(axis=1)
+    met = _rough(cosine, index / above, roughness, edges, np.zeros(1), (TILTS, turns))
+    matrix = interpolation(made, squared * (1.0 - met.back**2), met.reflected, met.ray, count)
+    return matrix[:, :count], met.by_ray(met.crossed, count)
 
 
 def from_outside(
@@ -73,18 +73,16 @@ def from_outside(
     angles : (A,) array
         Of incidence, in radians.
     """
-    cosine, squared = np.cos(angles), made.bounds[segments]
+    cosine, squared, rays = np.cos(angles), made.bounds[segments], len(angles)
     count, index = made.within(segments), np.sqrt(squared)
     if roughness <= FLAT:
-        reflectance, beyond = fresnel(cosine, above, index)
-        place, weight = squared * (1.0 - beyond**2), 1.0 - reflectance
-        return reflectance, interpolation(made, place[:, None], weight[:, None])[:, :count]
+        met = _flat(cosine, above, index)
+        rows = interpolation(made, squared * (1.0 - met.beyond**2), met.crossed, met.ray, rays)
+        return met.reflected[:, 0], rows[:, :count]
     edges = np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
-    reflected, crossed, _, beyond = _rough(
-        cosine, above / index, roughness, np.zeros(1), edges, (ENTRY_TILTS, ENTRY_TURNS)
-    )
-    rows = interpolation(made, squared * (1.0 - beyond**2), crossed)
-    return reflected.sum(axis=1), rows[:, :count]
+    met = _rough(cosine, above / index, roughness, np.zeros(1), edges, (ENTRY_TILTS, ENTRY_TURNS))
+    rows = interpolation(made, squared * (1.0 - met.beyond**2), met.crossed, met.ray, rays)
+    return met.by_ray(met.reflected, rays), rows[:, :count]
 
 
 def scattered(
@@ -116,19 +114,16 @@ def scattered(
     )
     index, index_beyond = np.sqrt(squared), np.sqrt(squared_beyond)
     if roughness <= FLAT:
-        reflected, passed = fresnel(cosine, index, index_beyond)
-        reflected, crossed = reflected[:, None], 1.0 - reflected[:, None]
-        back, onwards = cosine[:, None], passed[:, None]
+        met = _flat(cosine, index, index_beyond)
     else:
-        reflected, crossed, back, onwards = _rough(
-            cosine, index / index_beyond, roughness, edges, edges_beyond, (TILTS, turns)
-        )
+        ratio = index / index_beyond
+        met = _rough(cosine, ratio, roughness, edges, edges_beyond, (TILTS, turns))
     result = []
     for (made, segments), limit, place, share in (
-        (here, squared, back, reflected),
-        (beyond, squared_beyond, onwards, crossed),
+        (here, squared, met.back, met.reflected),
+        (beyond, squared_beyond, met.beyond, met.crossed),
     ):
-        rows = interpolation(made, limit * (1.0 - place**2), share)
+        rows = interpolation(made, limit * (1.0 - place**2), share, met.ray, len(cosine))
         result.append(rows[:, : made.within(segments)])
     return result
 
@@ -139,8 +134,40 @@ def _edge_cosines(made: Directions, segments: int) -> tuple[float, np.ndarray]:
     return squared, np.sqrt(np.maximum(1.0 - made.bounds[1 : segments + 1] / squared, 0.0))
 
 
-def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):
-    """What becomes of rays that meet the rough surface, for each of its normals (4.8).
+@dataclass(frozen=True)
+class _Met:
+    """What becomes of rays that meet the surface, in K groups of P of its normals.
+
+    Attributes
+    ----------
+    ray : (K,) array of int
+        Which ray meets the normals of a group, ascending.
+    reflected, crossed : (K, P) arrays
+        Shares by normal.
+    back, beyond : (K, P) arrays
+        Cosines of the rays that are reflected and that have crossed.
+    """
+
+    ray: np.ndarray
+    reflected: np.ndarray
+    crossed: np.ndarray
+    back: np.ndarray
+    beyond: np.ndarray
+
+    def by_ray(self, shares: np.ndarray, rays: int) -> np.ndarray:
+        """Sums (rays,) of shares (K, P)."""
+        return np.bincount(self.ray, shares.sum(axis=1), minlength=rays)
+
+
+def _flat(cosine: np.ndarray, index: float, index_beyond: float) -> _Met:
+    """At a flat surface: one normal."""
+    reflected, passed = fresnel(cosine, index, index_beyond)
+    columns = (reflected, 1.0 - reflected, cosine, passed)
+    return _Met(np.arange(cosine.size), *(column[:, None] for column in columns))
+
+
+def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals) -> _Met:
+    """At the rough surface, for each of its normals (4.8) but those that nothing is in.
 
     Normals that face away from the ray, or would send it to the wrong side, are drawn again in
     the walk: here they are left out and the rest weighs 1 in all.
@@ -155,42 +182,42 @@ def _rough(cosine, ratio, roughness, back_edges, beyond_edges, normals):
         Cosines of reflected and refracted rays at which the average is cut.
     normals : tuple of int
         Tilts and azimuths.
-
-    Returns
-    -------
-    reflected, crossed : (N, P) arrays
-        Shares by normal.
-    back, beyond : (N, P) arrays
-        Cosines of the rays that are reflected and that have crossed.
     """
     psi, weight = _tilts(cosine, ratio, roughness, back_edges, beyond_edges, normals[0])
-    cosine = cosine[:, None, None, None]  # rays, tilts, parts of the half circle, azimuths
     size = np.hypot(np.cos(psi), roughness * np.sin(psi))
     upright, tilted = np.cos(psi) / size, roughness * np.sin(psi) / size
     # facing = level - swing cos(turn)
-    level, swing = cosine * upright, np.sqrt(1.0 - cosine * cosine) * tilted
-    edges = _edges(cosine, ratio, upright, back_edges[:, None], beyond_edges[:, None])
-    turn, share = _turns(level, swing, edges, normals[1])
-    chance = weight * np.sin(psi) * size * share
-    facing = level - swing * np.cos(turn)
+    level = cosine[:, None] * upright
+    swing = np.sqrt(1.0 - cosine * cosine)[:, None] * tilted
+    edges = _edges(cosine[:, None], ratio, upright, back_edges, beyond_edges)
+    bounds = _turn_bounds(level, swing, edges)
+    ray, tilt, part = np.nonzero(np.diff(bounds) * weight[..., None] > 0.0)
+    turn, share = _between(bounds[ray, tilt, part], bounds[ray, tilt, part + 1], normals[1])
+    upright, level, swing, weight = (
+        values[ray, tilt][:, None]
+        for values in (upright, level, swing, weight * np.sin(psi) * size)
+    )
+    cosine = cosine[ray][:, None]
+    chance, facing = weight * share, level - swing * np.cos(turn)
     reflectance, refracted = fresnel(np.maximum(facing, 0.0), ratio, 1.0)
     back = 2.0 * facing * upright - cosine
     beyond = ratio * cosine + (refracted - ratio * facing) * upright
     fits = facing > 0.0
     reflected = np.where(fits & (back > 0.0), chance * reflectance, 0.0)
     crossed = np.where(fits & (beyond > 0.0), chance * (1.0 - reflectance), 0.0)
-    whole = (reflected + crossed).sum(axis=(1, 2, 3), keepdims=True)
-    shares = reflected / whole, crossed / whole, back, beyond
-    return tuple(share.reshape(cosine.shape[0], -1) for share in shares)
+    met = _Met(ray, reflected, crossed, back, beyond)
+    whole = met.by_ray(reflected + crossed, len(psi))[ray][:, None]
+    return replace(met, reflected=reflected / whole, crossed=crossed / whole)
 
 
 def _edges(cosine, ratio, upright, back, beyond):
-    """Cosines between ray and normal at which what happens changes, (N, T, E, 1).
+    """Cosines between ray and normal at which what happens changes, (N, T, E).
 
     Where a facet begins to face the ray, ceases to reflect it totally, and sends it to the given
     cosines.
     """
-    zero = np.zeros(np.broadcast_shapes(cosine.shape, upright.shape))
+    cosine, upright = cosine[..., None], upright[..., None]
+    zero = np.zeros_like(upright)
     total = np.sqrt(max(0.0, 1.0 - 1.0 / (ratio * ratio)))
     reflecting = 0.5 * (cosine + back) / upright
     # beyond = ratio cosine + (refracted - ratio facing) upright, solved for facing
@@ -201,16 +228,16 @@ def _edges(cosine, ratio, upright, back, beyond):
     return np.concatenate([zero, zero + total, reflecting, refracting], axis=2)
 
 
-def _turns(level, swing, edges, count):
-    """Azimuths of normals and their weights, (N, T, parts, count), cut at the edges."""
+def _turn_bounds(level, swing, edges):
+    """Azimuths of normals between which the same happens, ascending, (N, T, parts + 1)."""
+    level, swing = level[..., None], swing[..., None]
     turned = np.arccos(np.clip((level - edges) / np.maximum(swing, 1e-12), -1.0, 1.0))
-    last = np.full_like(turned[:, :, :1], np.pi)
-    turned = np.concatenate([np.sort(turned, axis=2), last], axis=2)
-    return _between(turned[..., 0], count)
+    last = np.full_like(turned[..., :1], np.pi)
+    return np.concatenate([np.sort(turned, axis=2), last], axis=2)
 
 
 def _tilts(cosine, ratio, roughness, back, beyond, count):
-    """Polar angles of normals and their weights, (N, T, 1, 1), cut like the azimuths.
+    """Polar angles of normals and their weights, (N, T), cut like the azimuths.
 
     An edge is met at some azimuth from the tilt on at which it is met in the plane of incidence.
     The angle is psi, with tan(tilt) = roughness tan(psi), in which 4.8 is smooth.
@@ -232,16 +259,15 @@ def _tilts(cosine, ratio, roughness, back, beyond, count):
     edges = np.sort(np.arctan2(np.sin(tilts), roughness * np.cos(tilts)), axis=1)
     first = np.zeros_like(angle)
     edges = np.concatenate([first, edges, first + 0.5 * np.pi], axis=1)
-    psi, weight = _between(edges, count)
-    shape = (cosine.size, -1, 1, 1)
-    return psi.reshape(shape), weight.reshape(shape)
+    psi, weight = _between(edges[:, :-1], edges[:, 1:], count)
+    return psi.reshape(cosine.size, -1), weight.reshape(cosine.size, -1)
 
 
-def _between(edges, count):
-    """Points and weights of an integral in `count` points between edges on the last axis."""
+def _between(first, last, count):
+    """Points and weights, on a further axis, of integrals in `count` points from first to last."""
     place, weight = legendre_roots(count)
     half = 0.5 * (1.0 + place)
     # crowding at the edges, some of which are roots of what is averaged
     place, weight = half * half * (3.0 - 2.0 * half), 3.0 * weight * half * (1.0 - half)
-    length = np.diff(edges)[..., None]
-    return edges[..., :-1, None] + length * place, length * weight
+    length = (last - first)[..., None]
+    return first[..., None] + length * place, length * weight

@@ -15,7 +15,14 @@ from numpy.typing import ArrayLike
 from hylios.errors import InputError, require_range
 from hylios.readers.quantities import Quantity
 from hylios.readers.table import read_table
-from hylios.tanning import LARGEST_DOSE, LONGEST_HOURS, Exposures, Kinetics, states_at
+from hylios.tanning import (
+    LARGEST_DOSE,
+    LONGEST_HOURS,
+    ErythemaDynamics,
+    Exposures,
+    Kinetics,
+    states_at,
+)
 
 SHARES = 512
 """Shares of the dose, from none to all. The response jumps where the dose passes the MMD and then
@@ -47,9 +54,9 @@ class ShareHistory:
     shares : (S,) array
         0 to 1.
     hours : (T,) array
-    states : (S, T, 4) array
-        Melanin of basale, spinosum, granulosum relative to the total without sun, and thickness
-        relative to that without sun.
+    states : (S, T, 4) array, or (S, T, 5) with erythema
+        Melanin of basale, spinosum, granulosum relative to the total without sun, thickness
+        relative to that without sun, and blood relative to the skin's own.
     """
 
     shares: np.ndarray
@@ -58,7 +65,7 @@ class ShareHistory:
 
     @property
     def image(self) -> np.ndarray:
-        """The states as an image with a row for each hour and a column for each share (T, S, 4)."""
+        """The states as an image with a row for each hour and a column for each share (T, S, .)."""
         return np.moveaxis(self.states, 1, 0)
 
 
@@ -70,6 +77,7 @@ def history_of_shares(
     mmd: float,
     med: float,
     shares: ArrayLike | None = None,
+    erythema: ErythemaDynamics | None = None,
 ) -> ShareHistory:
     """Tanning states after all shares of some doses.
 
@@ -77,7 +85,7 @@ def history_of_shares(
     ----------
     exposures : Exposures
         With doses (E,), as they fall on bare skin.
-    melanin, mmd, med
+    melanin, mmd, med, erythema
         Of the skin, as in `hylios.tanning.states_at`.
     hours : (T,) array
         Times to tell the states of, 0 to a century.
@@ -96,7 +104,8 @@ def history_of_shares(
         parts[:, None] * exposures.doses,
         parts[:, None] * exposures.thickening_doses,
     )
-    return ShareHistory(parts, times, states_at(received, melanin, times=times, mmd=mmd, med=med))
+    states = states_at(received, melanin, times=times, mmd=mmd, med=med, erythema=erythema)
+    return ShareHistory(parts, times, states)
 
 
 def require_last_day(days: float) -> float:

@@ -13,10 +13,10 @@ import numpy as np
 from hylios.adding import spectra
 from hylios.errors import InputError
 from hylios.history import history_of_shares, require_last_day
-from hylios.skin import Skin
+from hylios.skin import Skin, whole_thickening
 from hylios.skin.skin import MOST_BLOOD
 from hylios.table import LookAxes
-from hylios.tanning import KINETICS, Exposures, Spread, spread_of
+from hylios.tanning import KINETICS, ErythemaDynamics, Exposures, Spread, spread_of
 
 DAYS = 60
 MOST_EXPOSURES = 11
@@ -77,8 +77,12 @@ def reachable_states(skin: Skin, schedules: int, seed: int) -> np.ndarray:
     return skin.states(Exposures(np.arange(hours), doses), times).reshape(-1, 4)
 
 
-def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
+def reached_states(
+    skin: Skin, exposures: Exposures, days: float, erythema: ErythemaDynamics | None = None
+) -> np.ndarray:
     """States (N, 4) of a skin anywhere on a body, from day 0 to a last one, by every kinetics.
+
+    With erythema they are (N, 5): of the skin where it reddens, and where it does not.
 
     Raises
     ------
@@ -87,13 +91,23 @@ def reached_states(skin: Skin, exposures: Exposures, days: float) -> np.ndarray:
     """
     last = 24.0 * require_last_day(days)
     hours = np.append(np.arange(0.0, last, HOURS_BETWEEN), last)
-    parts = [
-        history_of_shares(
-            exposures, one.melanin_kinetics, hours=hours, mmd=skin.mmd, med=skin.med
-        ).states
-        for one in by_kinetics(skin)
-    ]
-    return np.concatenate(parts).reshape(-1, 4)
+    states = np.concatenate(
+        [
+            history_of_shares(
+                exposures,
+                one.melanin_kinetics,
+                hours=hours,
+                mmd=skin.mmd,
+                med=skin.med,
+                erythema=erythema,
+            ).states
+            for one in by_kinetics(skin)
+        ]
+    )
+    if erythema is None:
+        return states.reshape(-1, 4)
+    without = np.concatenate([states[..., :4], np.ones_like(states[..., 4:])], axis=-1)
+    return np.concatenate([without, whole_thickening(states)]).reshape(-1, 5)
 
 
 def untanned_state(skin: Skin) -> np.ndarray:
@@ -150,7 +164,7 @@ def _sheet(skin: Skin) -> Spread:
 
 
 def within(axes: LookAxes, states: np.ndarray) -> LookAxes:
-    """Bounded axes over the states (N, 4) of a scene, with the whole table's knots between them.
+    """Bounded axes over a scene's states (N, 4 or 5), with the whole table's knots between them.
 
     The untanned skin is a knot.
     """

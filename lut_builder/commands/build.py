@@ -21,7 +21,7 @@ from hylios.commands.texts import number
 from hylios.errors import InputError, require_whole
 from hylios.quadrature import FEWEST, MOST
 from hylios.readers.text import name_of
-from hylios.skin import UNTANNED
+from hylios.skin import UNTANNED, Skin
 from hylios.table import INTERPOLATIONS
 from hylios.tanning import Exposures
 from lut_builder.commands.limits import (
@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 
 SCENE_DAYS = 60.0
 """Days of a schedule's scene by default."""
+
+BLOOD = 3
+"""Which number of knots is that of the blood."""
 
 SHORT = 5.0
 """Seconds of work below which the start of other processes does not pay."""
@@ -128,6 +131,11 @@ def _add_scene_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         help=f"days that the scene of --schedule lasts (default: {SCENE_DAYS:g})",
     )
+    parser.add_argument(
+        "--no-redness",
+        action="store_true",
+        help="leave out how the doses of --schedule redden skin: for scenes without sunburn",
+    )
 
 
 def _add_output_arguments(parser: argparse.ArgumentParser) -> None:
@@ -150,26 +158,23 @@ def _add_output_arguments(parser: argparse.ArgumentParser) -> None:
 def build_table(arguments: argparse.Namespace) -> None:
     """Build a table and write it."""
     require_work(arguments)
-    if arguments.days is not None and arguments.schedule is None:
-        raise InputError(f"--days is {arguments.days:g} without a --schedule; allowed is both.")
+    if arguments.schedule is None:
+        if arguments.days is not None:
+            raise InputError(f"--days is {arguments.days:g} without a --schedule; allowed is both.")
+        if arguments.no_redness:
+            raise InputError("--no-redness is given without a --schedule; allowed is both.")
     settings = _settings(arguments)
     _, model = chosen_skin(arguments)
     skin = chosen_tanning_skin(arguments, arguments.untanned)
 
     # numba, colour-science and OpenImageIO take a second or more.
-    from hylios.history import read_schedule
     from lut_builder.assemble import assembled, requested, units
     from lut_builder.commands.resumable import resumable
     from lut_builder.exr_writer import write_table
     from lut_builder.jobs.run import run_units
     from lut_builder.jobs.software import software_digest
-    from lut_builder.reachable import reached_states
 
-    reached = None
-    if arguments.schedule is not None:
-        days = SCENE_DAYS if arguments.days is None else arguments.days
-        schedule = _doses_of(read_schedule(arguments.schedule), arguments.schedule, days)
-        reached = reached_states(skin, schedule, days)
+    reached = None if arguments.schedule is None else _reached(skin, settings, arguments)
     seen_in = lighting(arguments.illuminant, arguments.observer)
     if settings.colour_wavelengths and arguments.wavelengths is None:
         enough = seen_in.enough(settings.colour_wavelengths)
@@ -197,6 +202,18 @@ def build_table(arguments: argparse.Namespace) -> None:
     if cut:
         print(f"note: {cut} of {count} states would overfill a layer with melanin; cut")
     print(f"wrote {arguments.output}: {os.path.getsize(arguments.output) / 1000:.1f} KB")
+
+
+def _reached(skin: Skin, settings: Settings, arguments: argparse.Namespace) -> np.ndarray:
+    """States that the scene of `--schedule` leads through, as far as the settings tell them."""
+    from hylios.adding.redness import erythema
+    from hylios.history import read_schedule
+    from lut_builder.reachable import reached_states
+
+    days = SCENE_DAYS if arguments.days is None else arguments.days
+    schedule = _doses_of(read_schedule(arguments.schedule), arguments.schedule, days)
+    reddens = len(settings.knots) > BLOOD and settings.knots[BLOOD] > 1 and not arguments.no_redness
+    return reached_states(skin, schedule, days, erythema(skin) if reddens else None)
 
 
 def _doses_of(schedule: Exposures, path: Path, days: float) -> Exposures:

@@ -5,15 +5,19 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from sampled import colours, tan
+from sampled import colours, coordinates, tan
 from scenes import of_role, tan_object
 
+import hylios
+from blender_addon.model.response import response_of
+from blender_addon.model.tan import history_within
 from hylios.errors import InputError
 from hylios.history import read_schedule
+from hylios.skin import whole_thickening
 from hylios.skin.phototypes import phototype
 from hylios.sun.doses import of_sed
-from hylios.table import from_stored, to_stored
-from hylios.tanning import Exposures
+from hylios.table import MinimalDoses, from_stored, to_stored
+from hylios.tanning import KINETICS, Exposures
 from lut_builder.assemble import build
 from lut_builder.exr_writer import write_table
 from lut_builder.reachable import reached_states
@@ -34,7 +38,7 @@ def without(table, *names):
 @pytest.fixture(scope="module")
 def part():
     """The table of ten days after one exposure, as it comes back from a file of 16 bits."""
-    reached = reached_states(SKIN, Exposures([0], [SUN]), 10.0)
+    reached = reached_states(SKIN, Exposures([0], [SUN]), 10.0, hylios.erythema(SKIN))
     return from_stored(to_stored(build(SKIN, QUICK, reached=reached), half=True))
 
 
@@ -43,6 +47,18 @@ def test_a_table_for_a_schedule_is_good_for_it(part):
     of_part, of_whole = (colours(tan(table, of_sed(0, SUN), **SPAN)) for table in (part, whole))
     assert np.ptp(of_whole[..., 0]) > 0.05
     assert of_part == pytest.approx(of_whole, abs=0.003)
+
+
+@pytest.mark.parametrize("kinetics", KINETICS)
+def test_a_table_for_a_schedule_is_as_good_for_redness_and_either_kinetics(part, kinetics):
+    minimal, days = MinimalDoses(mmd=SKIN.mmd, med=SKIN.med), (0.0, 10.0)
+    response = response_of(part, kinetics, redness=True)
+    told = history_within(part, of_sed(0, SUN), minimal, days, response=response)
+    skin = replace(SKIN, kinetics=kinetics)
+    states = skin.states(Exposures([0], [SUN]), [12, 24], erythema=hylios.erythema(SKIN))
+    expected = np.log(whole_thickening(states)[:, 4])
+    shown = coordinates(told, np.ones(2), np.array([0.5, 1.0]))[:, 2]
+    assert shown == pytest.approx(expected, abs=0.02) and shown.min() > 0.5
 
 
 @pytest.mark.parametrize(
@@ -110,9 +126,9 @@ def test_an_exported_schedule_gives_a_table_that_apply_takes(tmp_path):
     obj = tan_object(table_path, dose=SUN)
     obj.skin_tan.first_day, obj.skin_tan.last_day = 0.7, 13.1
     assert exported(path) == {"FINISHED"}
-    write_table(
-        table_path, build(SKIN, QUICK, reached=reached_states(SKIN, read_schedule(path), 13.1))
-    )
+    reached = reached_states(SKIN, read_schedule(path), 13.1, hylios.erythema(SKIN))
+    write_table(table_path, build(SKIN, QUICK, reached=reached))
+    obj.skin_tan.kinetics, obj.skin_tan.redness = "MEASURED", True
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     obj.skin_tan.exposures[0].dose = 1.5 * SUN
     with pytest.raises(RuntimeError, match="built for another schedule of sun"):

@@ -1,13 +1,20 @@
 """`lut-builder build --schedule`: a table for one scene."""
 
+import numpy as np
 import pytest
 
+import hylios
 from hylios.history import read_schedule
+from hylios.skin import Skin, whole_thickening
 from hylios.table import read_table
 from lut_builder.cli import main
+from lut_builder.reachable import by_kinetics
+
+SKIN = Skin.of(hylios.specimen("S3"))
 
 
 def test_a_schedule_through_the_shell(tmp_path, capsys):
+    """By either kinetics, and as red as the doses make the skin unless that is left out."""
     path, sun = tmp_path / "t.exr", tmp_path / "sun.csv"
     sun.write_text("# a day at the beach\nhour,melanogenesis_sed,thickening_sed\n0,6,5\n30,4,3\n")
     read = read_schedule(sun)
@@ -15,14 +22,23 @@ def test_a_schedule_through_the_shell(tmp_path, capsys):
     assert (read.doses.tolist(), read.thickening_doses.tolist()) == ([6.0, 4.0], [5.0, 3.0])
     quick = "--knots 12,3,3,2 --wavelengths 4 --bands visible --no-profile"
     command = f"build --specimen S3 --schedule {sun} --days 10 {quick} -o {path}"
-    assert main(["build", "--days", "10", "-o", str(path)]) == 2
-    assert "--days is 10 without a --schedule" in capsys.readouterr().err
-    assert main(command.split()) == 0
-    said = capsys.readouterr().out
-    told = read_table(path).provenance
-    count = told["states_computed"]
-    assert f"for the scene: {count}, for any sun: 216; {1 - count / 216:.0%} saved" in said
-    assert count < 90 and told["states_for_any_sun"] == 216
+    for option, sentence in (("--days 10", "--days is 10"), ("--no-redness", "--no-redness is")):
+        assert main(f"build {option} -o {path}".split()) == 2
+        assert f"{sentence} " in (error := capsys.readouterr().err)
+        assert "without a --schedule; allowed is both" in error
+    reddened = hylios.erythema(SKIN)
+    states = whole_thickening(
+        [one.states(read, np.arange(241), erythema=reddened) for one in by_kinetics(SKIN)]
+    )
+    for option, blood in (("", states[..., 4].max()), (" --no-redness --force", 1.0)):
+        assert main((command + option).split()) == 0
+        said = capsys.readouterr().out
+        table = read_table(path)
+        count = table.provenance["states_computed"]
+        assert f"for the scene: {count}, for any sun: 216; {1 - count / 216:.0%} saved" in said
+        assert count < 100 and table.provenance["states_for_any_sun"] == 216
+        assert np.exp(table.axes.knots[3][-1]) == pytest.approx(blood, rel=0.01)
+        assert table.holds(states).all() == (blood > 1.0)
 
 
 def test_a_scene_that_reaches_farther_than_other_suns_saves_nothing(tmp_path, capsys):

@@ -1,4 +1,4 @@
-# make demo | gallery | figures | truth | test | test-all | bench | docs | package | constraints: all but the
+# make demo | example | gallery | figures | truth | test | test-all | bench | docs | package | constraints: all but the
 # last set up what they need in VENV first.
 # PYTHON=... picks the interpreter: 3.11 (Blender 5.0, or BPY=4.5.x) or 3.13 (Blender 5.2 LTS). All
 # packages have the versions of constraints/.
@@ -6,13 +6,17 @@ PYTHON ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo gallery figures truth simplifications agreement test test-all lint bench docs package environment
+.PHONY: demo example gallery figures truth simplifications agreement test test-all lint bench docs package environment
 
 environment:
 	@tools/environment.sh $(VENV) $(PYTHON)
 
 demo: environment
 	@$(BIN)/python -m examples.demo
+
+# A .blend to look at: a body, its clothes, two times in the sun, into out/example.blend.
+example: environment
+	@$(BIN)/python -m examples.example_file
 
 # Faces, shoulders and hands of new materials, near and far, in two lights: out/gallery.
 gallery: environment

@@ -94,12 +94,18 @@ def suzanne() -> Subject:
 
 
 def build(subject: Subject, lamps: Sequence[Lamp] = LAMPS) -> bpy.types.Object:
+    """As `stage`, with the subject's mask."""
+    obj = stage(subject, lamps)
+    add_mask(obj.data, subject.cloth)
+    return obj
+
+
+def stage(subject: Subject, lamps: Sequence[Lamp] = LAMPS) -> bpy.types.Object:
     """Fill an empty scene with the subject, camera and light; returns the subject's object."""
     scene = bpy.context.scene
     obj = bpy.data.objects.new(subject.name, subdivided(subject))
     scene.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
-    add_mask(obj.data, subject.cloth)
 
     distance = subject.height * LENS_MILLIMETRES / SENSOR_MILLIMETRES
     camera = bpy.data.cameras.new("Camera")

@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from hylios.adding import spectra
-from hylios.errors import InputError, as_numbers
+from hylios.errors import InputError
 from hylios.quadrature import skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.biology import Biology
@@ -122,52 +122,61 @@ class ChangedTable(SkinTable):
     blood: float = field(kw_only=True)
     correction: Correction | None = None
 
-    def lookup(
-        self, states: ArrayLike, names: Sequence[str] | None = None
+    def at(
+        self, coordinates: np.ndarray, names: tuple[str, ...], blood: np.ndarray | None = None
     ) -> dict[str, NDArray[np.float64]]:
-        """As `SkinTable.lookup`."""
-        states = np.array(as_numbers("tanning states", states))
-        planes = self.table.lookup(self._moved(states), names)
-        for name, factor in self._factors(states, list(planes)).items():
+        """As `SkinTable.at`."""
+        own = None if blood is None else self._moved_blood(blood)
+        planes = self.table.at(self._moved(coordinates), names, own)
+        for name, factor in self._factors(coordinates, names, blood).items():
             planes[name] = planes[name] * factor
         return planes
 
-    def _factors(self, states: np.ndarray, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+    def _factors(
+        self, coordinates: np.ndarray, names: Sequence[str], blood: np.ndarray | None
+    ) -> dict[str, NDArray[np.float64]]:
         """By what planes (..., components) at the other place are to be multiplied."""
         if self.correction is None:
             return {}
         tans = self.correction.tans
         sources = {name: LIKE.get(name, name) for name in names}
-        solved = sorted({*sources.values()} & {*tans.coefficients})
+        solved = tuple(sorted({*sources.values()} & {*tans.coefficients}))
         if not solved:
             return {}
-        coordinates = self.axes.coordinates(states)
         nearest = tans.nearest(coordinates[..., 0], coordinates[..., 1])
         # as complex numbers they are sorted faster than as rows
         pairs = np.ascontiguousarray(nearest).view(np.complex128)[..., 0]
         distinct, which = np.unique(pairs, return_inverse=True)
         distinct, which = distinct.view(float).reshape(-1, 2), which.reshape(pairs.shape)
-        elsewhere = self.table.lookup(self._moved(tans.states(distinct)), solved)
-        right, added = tans.numbers(distinct), self.correction.added(coordinates)
+        there = self.axes.coordinates(tans.states(distinct))
+        elsewhere = self.table.at(self._moved(there), solved)
+        right = tans.numbers(distinct)
+        if blood is not None:
+            which = np.repeat(which[..., None], blood.size, axis=-1)
+            coordinates = np.repeat(coordinates[..., None, :], blood.size, axis=-2)
+            coordinates[..., 3] = blood
+        added = self.correction.added(coordinates)
         factors = {}
         for name in solved:
             factor = np.exp(right[name]) / np.maximum(elsewhere[name], FAINTEST)
             factors[name] = factor[which] * np.exp(added.get(name, 0.0))
         return {name: factors[source] for name, source in sources.items() if source in factors}
 
-    def _moved(self, states: np.ndarray) -> np.ndarray:
-        """States of the skin itself that look nearly as those of the changed skin."""
-        if states.shape[-1] == 4:
-            states = np.concatenate([states, np.ones((*states.shape[:-1], 1))], axis=-1)
-        places = self.axes.coordinates(states)
-        places[..., 0] += np.log(self.melanin)
-        moved = self.axes.states(places)
-        if self.blood > 1.0:
-            # what lies beyond the table's most blood is squeezed into it, without a bend
-            least = np.log(self.blood)
-            shrunk = 1.0 - least / np.log(MOST_BLOOD)
-            moved[..., 4] = np.exp(least + shrunk * np.log(states[..., 4]))
-        return moved
+    def _moved(self, coordinates: np.ndarray) -> np.ndarray:
+        """Coordinates of the skin's own states that look nearly as those of the changed skin."""
+        moved = np.array(coordinates)
+        moved[..., 0] += np.log(self.melanin)
+        moved[..., 3] = self._moved_blood(moved[..., 3])
+        # where both sheets are as good as one, a place on either counts as on the first
+        return self.axes.coordinates(self.axes.states(moved))
+
+    def _moved_blood(self, blood: np.ndarray) -> np.ndarray:
+        """Logarithms of the skin's own blood that look nearly as those of the changed skin."""
+        if self.blood <= 1.0:
+            return blood
+        # what lies beyond the table's most blood is squeezed into it, without a bend
+        least = np.log(self.blood)
+        return least + (1.0 - least / np.log(MOST_BLOOD)) * blood
 
 
 def changed_table(

@@ -199,10 +199,9 @@ class Grid:
         b = np.linspace(*self.blood, BLOOD_ROWS if self.blood[1] > self.blood[0] else 1)
         as_thick = np.clip(self.reached, min(thin + LEAST_SPAN, thick), thick)
         v = thin + np.multiply.outer(as_thick - thin, SEEN)
-        of_usual_blood = self.spread.states(u[:, None], np.minimum(v, self.reached[:, None]))
-        states = np.repeat(of_usual_blood[:, :, None], len(b), axis=2)
-        states[..., 3], states[..., 4] = np.exp(v)[..., None], np.exp(b)
-        planes = table.lookup(states, names)
+        states = self.spread.states(u[:, None], np.minimum(v, self.reached[:, None]))
+        states[..., 3] = np.exp(v)
+        planes = table.lookup(states, names, np.exp(b))
         further = (thick - thin) / (v[:, 2] - thin)
         tanned = np.clip(2.0 * (self.reached - thin) / LEAST_SPAN - 1.0, 0.0, 1.0)
         return {name: _straight(values, further, tanned) for name, values in planes.items()}

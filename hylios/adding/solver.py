@@ -24,8 +24,9 @@ from hylios.tissue.stacks import joined, some_of, stacks_of
 NODES = 22
 """Directions by default: within 2.5e-4 of what many more give, 1e-4 rms."""
 
-TOGETHER = 128
-"""Stacks solved at once, for their matrices to stay in a processor's cache."""
+TOGETHER = 160
+"""Stacks solved at once, for their matrices to stay in a processor's cache: as many as the look of
+a changed skin needs (`hylios.changed_table`), for a few more take as long as many."""
 
 
 Film = float | None | Sequence[float | None]

@@ -46,6 +46,25 @@ def between(knots: tuple[np.ndarray, ...], nodes: np.ndarray, positions: np.ndar
     return result
 
 
+def sliced(
+    knots: tuple[np.ndarray, ...], nodes: np.ndarray, positions: np.ndarray
+) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+    """Knots and nodes without the last axis, at B positions on it: components are (B, C) then.
+
+    Parameters as of `between`.
+    """
+    count = len(knots)
+    low, weights = _axis(knots[-1], positions, nodes.shape[-1])
+    along = np.moveaxis(nodes, (count - 1, -1), (0, 1))
+    size, kinds, *others = along.shape
+    placed = np.zeros((len(positions), size, kinds))
+    for number, first in enumerate(low):
+        placed[number, first : first + 2] = weights[number].reshape(-1, kinds)
+    at_positions = placed.reshape(len(positions), -1) @ along.reshape(size * kinds, -1)
+    there = np.moveaxis(at_positions.reshape(-1, *others), 0, count - 1)
+    return knots[:-1], there.reshape(*others[: count - 1], -1, *others[count:])
+
+
 def slopes(knots: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Slopes of the monotone cubic at its knots.
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
 from hylios.table.axes import Axes, LookAxes
-from hylios.table.interpolation import between, nodes
+from hylios.table.interpolation import between, nodes, sliced
 from hylios.tanning import KINETICS
 
 
@@ -54,12 +54,21 @@ class SkinTable:
         return ("thesis",)
 
     def lookup(
-        self, states: ArrayLike, names: Sequence[str] | None = None
+        self,
+        states: ArrayLike,
+        names: Sequence[str] | None = None,
+        blood: ArrayLike | None = None,
     ) -> dict[str, NDArray[np.float64]]:
         """Planes by name, each (..., components), at tanning states (..., 4) or (..., 5).
 
         All planes, unless some are named. Beyond the outermost knots their value is held. Where
         blood is left out it is the untanned skin's; a table of format 3 knows no other.
+
+        Parameters
+        ----------
+        blood : (B,) array, optional
+            With which all states are looked up in place of their own; planes then are
+            (..., B, components), much sooner than of as many states.
 
         Raises
         ------
@@ -72,13 +81,33 @@ class SkinTable:
             if name not in self.planes:
                 raise InputError(f"the table has no plane {name}; it has {', '.join(self.planes)}.")
         coordinates = self.axes.coordinates(as_numbers("tanning states", states))
-        numbers = between(
-            self.axes.knots,
-            self._nodes_of(wanted),
-            coordinates.reshape(-1, coordinates.shape[-1]),
-        ).reshape(*coordinates.shape[:-1], -1)
-        ends = np.cumsum([self.planes[name].shape[-1] for name in wanted])
-        return dict(zip(wanted, np.split(numbers, ends[:-1], axis=-1), strict=True))
+        if blood is None:
+            return self.at(coordinates, wanted)
+        relative = as_numbers("blood", blood)
+        if relative.ndim != 1 or not np.all((relative > 0.0) & np.isfinite(relative)):
+            raise InputError(f"blood is {str(blood)[:60]}; allowed is a row of numbers above 0.")
+        return self.at(coordinates, wanted, np.log(relative))
+
+    def at(
+        self, coordinates: np.ndarray, names: tuple[str, ...], blood: np.ndarray | None = None
+    ) -> dict[str, NDArray[np.float64]]:
+        """As `lookup`, at coordinates (..., K) on the axes.
+
+        `blood` (B,) are logarithms, the last coordinates in place of those given.
+        """
+        knots, numbers = self.axes.knots, self._nodes_of(names)
+        has_blood = blood is not None and isinstance(self.axes, LookAxes)
+        if has_blood:
+            knots, numbers = sliced(knots, numbers, blood)
+        leading, own = coordinates.shape[:-1], coordinates[..., : len(knots)]
+        told = between(knots, numbers, own.reshape(-1, len(knots)))
+        if blood is not None:
+            many = blood.size if has_blood else 1
+            told = told.reshape(*leading, many, -1).repeat(blood.size // many, axis=-2)
+        else:
+            told = told.reshape(*leading, -1)
+        ends = np.cumsum([self.planes[name].shape[-1] for name in names])
+        return dict(zip(names, np.split(told, ends[:-1], axis=-1), strict=True))
 
     def _nodes_of(self, names: tuple[str, ...]) -> np.ndarray:
         """What interpolation needs of some planes side by side; made once."""

@@ -5,7 +5,7 @@ melanin is spread over its layers then follows, nearly. So states lie near a she
 the kinetics and not to the skin's optics. numpy only.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 
@@ -13,9 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers
+from hylios.tanning.departures import melanin_departures
 from hylios.tanning.exposures import Exposures
 from hylios.tanning.kinetics import Kinetics
-from hylios.tanning.simulation import states_at
+from hylios.tanning.measured import MeasuredDynamics
+from hylios.tanning.recurrence import in_a_row, in_blocks
+from hylios.tanning.shares import retained
+from hylios.tanning.simulation import hill, states_at
 
 SCHEDULES, DAYS, MOST_EXPOSURES, SEED = 24, 60, 11, 0
 LEAST_DOSE, MOST_DOSE = 0.35, 10.5
@@ -25,7 +29,11 @@ SINGLE, LEAST_SINGLE = 24, 1.05
 """Schedules of one exposure alone, besides, and the least dose of them in MMD. Such a tan is the
 most usual, and while it rises melanin is spread otherwise than after several exposures."""
 
-HOURS_BETWEEN = 12.0
+HOURS, HOURS_BETWEEN = 24 * DAYS, 12
+"""Of the schedules, and between two states."""
+
+ALL_IN_ONE = (1.0, 0.0, 0.0)
+"""Melanin by layer, of which one has all."""
 
 DEGREE = 5
 """Degree of the polynomial in melanin and thickness."""
@@ -163,22 +171,57 @@ def spread_of(dynamics: Kinetics, *, mmd: float, med: float) -> Spread:
 
 def _reached(dynamics: Kinetics, mmd: float, med: float) -> np.ndarray:
     """States (N, 4) that seeded schedules, and those of one exposure, lead through."""
+    if not isinstance(dynamics, MeasuredDynamics):
+        return _simulated(dynamics, mmd, med)
+    # Of the most new melanin the share that there is hangs on gain / most alone: skins that differ
+    # in how much they make and where have it in common, and all have what leads to it.
+    alike = replace(dynamics, untanned=ALL_IN_ONE, places=ALL_IN_ONE, gain=0.0, most=1.0)
+    share = _new_melanin(alike, float(f"{dynamics.gain / dynamics.most:.15g}"), mmd, med)
+    thickness = _simulated(alike, mmd, med)[:, 3:]
+    untanned = dynamics.steady_state()
+    melanin = untanned + dynamics.most * share[:, None] * dynamics.places
+    return np.concatenate([np.maximum(melanin, 0.0) / untanned.sum(), thickness], axis=1)
+
+
+def _schedules(mmd: float) -> Exposures:
+    """The seeded schedules, then those of one exposure, with doses in SED."""
     random = np.random.default_rng(SEED)
-    hours = 24 * DAYS
-    doses = np.zeros((SCHEDULES + SINGLE, hours))
+    doses = np.zeros((SCHEDULES + SINGLE, HOURS))
     doses[SCHEDULES:, 0] = mmd * np.geomspace(LEAST_SINGLE, MOST_DOSE, SINGLE)
     for schedule in doses[:SCHEDULES]:
         count = random.integers(1, MOST_EXPOSURES + 1)
-        when = random.choice(hours, count, replace=False)
+        when = random.choice(HOURS, count, replace=False)
         schedule[when] = mmd * random.uniform(LEAST_DOSE, MOST_DOSE, count)
-    states = states_at(
-        Exposures(np.arange(hours), doses),
-        dynamics,
-        times=np.arange(0.0, hours, HOURS_BETWEEN),
-        mmd=mmd,
-        med=med,
-    )
-    return states.reshape(-1, 4)
+    return Exposures(np.arange(HOURS), doses)
+
+
+@lru_cache(maxsize=8)
+def _simulated(dynamics: Kinetics, mmd: float, med: float) -> np.ndarray:
+    """States (N, 4) of the schedules."""
+    times = np.arange(0, HOURS, HOURS_BETWEEN)
+    states = states_at(_schedules(mmd), dynamics, times=times, mmd=mmd, med=med).reshape(-1, 4)
+    states.setflags(write=False)
+    return states
+
+
+@lru_cache(maxsize=8)
+def _new_melanin(dynamics: MeasuredDynamics, gain: float, mmd: float, med: float) -> np.ndarray:
+    """New melanin (N,) in the schedules' states, all in one layer, with another gain."""
+    one_layer = replace(dynamics, gain=gain)
+    new = in_a_row(melanin_departures(_response(dynamics, mmd, med), one_layer)[0], HOURS)
+    new = new[::HOURS_BETWEEN].T.ravel()
+    new.setflags(write=False)
+    return new
+
+
+@lru_cache(maxsize=4)
+def _response(dynamics: MeasuredDynamics, mmd: float, med: float) -> np.ndarray:
+    """The Hill factor of 5.11 after the schedules by the hour, laid out in blocks."""
+    energies, _ = retained(_schedules(mmd), dynamics, mmd=mmd, med=med, hours=HOURS - 1)
+    signal = in_blocks(energies.signals().T)
+    response = hill(signal, dynamics.hill_constant, dynamics.hill_exponent)
+    response.setflags(write=False)
+    return response
 
 
 def _directions(departures: np.ndarray) -> np.ndarray:
@@ -209,15 +252,26 @@ def powers(first: np.ndarray | float, thickness: np.ndarray | float, degree: int
     In the order of the first's power, then of the thickness's, which is taken four times: it
     changes by a quarter as much.
     """
-    second = 4.0 * np.asarray(thickness, dtype=float)
-    return np.stack(
-        [
-            np.asarray(first, dtype=float) ** own * second**other
-            for own, other in product(range(degree + 1), repeat=2)
-            if 0 < own + other <= degree
-        ],
-        axis=-1,
+    own, other = np.broadcast_arrays(
+        np.asarray(first, dtype=float), 4.0 * np.asarray(thickness, dtype=float)
     )
+    # multiplied up: numpy takes ten times as long for whole powers of an array
+    by_own, by_other = ([np.ones_like(own)] for _ in range(2))
+    for _ in range(degree):
+        by_own.append(by_own[-1] * own)
+        by_other.append(by_other[-1] * other)
+    pairs = _pairs(degree)
+    terms = np.empty((*own.shape, len(pairs)))
+    for number, (power, other_power) in enumerate(pairs):
+        np.multiply(by_own[power], by_other[other_power], out=terms[..., number])
+    return terms
+
+
+@lru_cache(maxsize=8)
+def _pairs(degree: int) -> tuple[tuple[int, int], ...]:
+    """Powers of the two in the terms."""
+    pairs = product(range(degree + 1), repeat=2)
+    return tuple((own, other) for own, other in pairs if 0 < own + other <= degree)
 
 
 def fitted(terms: np.ndarray, values: np.ndarray) -> NDArray[np.float64]:

@@ -82,6 +82,18 @@ def test_tans_at_rest_are_those_while_sliders_are_dragged():
     np.testing.assert_allclose(rough, exact, rtol=1e-9)
 
 
+@pytest.mark.parametrize("rough", [True, False])
+def test_states_with_several_amounts_of_blood_are_as_one_by_one(rough):
+    biology = Biology(melanin=0.7, blood=1.6)
+    changed = changed_table(read_table(TABLES / "III.exr"), biology, rough=rough)
+    some, amounts = tans(changed, [0.6, 1.0, 1.0, 1.4, 2.3]), np.array([0.5, 1.0, 3.0, 12.0])
+    together = changed.lookup(some, ["total_colour", "near_share"], amounts)
+    for column, amount in enumerate(amounts):
+        some[:, 4] = amount
+        for name, plane in changed.lookup(some, list(together)).items():
+            np.testing.assert_allclose(together[name][:, column], plane, rtol=1e-12)
+
+
 def test_melanin_that_fills_a_layer_bends_no_tan():
     table = read_table(TABLES / "VI.exr")
     skin = skin_of(table.provenance)

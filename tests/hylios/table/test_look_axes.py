@@ -112,6 +112,20 @@ def test_four_numbers_are_looked_up_as_five_with_the_untanned_blood(table, inter
     assert not np.allclose(flushed, whole, atol=1e-3)
 
 
+@pytest.mark.parametrize("interpolation", ["linear", "pchip"])
+def test_states_with_several_amounts_of_blood_are_as_one_by_one(table, interpolation):
+    some, used = states(12).reshape(3, 4, 5), replace(table, interpolation=interpolation)
+    amounts = np.exp([-0.3, 0.0, 0.7, 1.1, 9.0])
+    together = used.lookup(some, blood=amounts)
+    for column, amount in enumerate(amounts):
+        alone = used.lookup(np.concatenate([some[..., :4], np.full((3, 4, 1), amount)], axis=-1))
+        for name, plane in alone.items():
+            np.testing.assert_allclose(together[name][..., column, :], plane, rtol=1e-12)
+    for wrong in ([[1.0]], [0.0], [np.nan]):
+        with pytest.raises(InputError, match="blood is"):
+            used.lookup(some, blood=wrong)
+
+
 def test_a_table_over_melanin_survives_its_channels_and_says_its_axes(table):
     stored = to_stored(table)
     header = json.loads(stored.header)

@@ -58,6 +58,13 @@ def test_a_plane_is_the_whole_lookup_s(table):
         table.plane("profile_error", states)
 
 
+def test_a_table_without_blood_is_the_same_with_any(table):
+    states = table.axes.knot_states()
+    told = table.lookup(states, ["total_colour"], [0.5, 1.0, 4.0])["total_colour"]
+    for column in range(3):
+        assert np.array_equal(told[..., column, :], table.plane("total_colour", states))
+
+
 def test_table_is_linear_between_knots_and_held_beyond_them(table):
     values = table.planes["total_colour"]
     inside = table.plane("total_colour", table.axes.states(np.array([0.5, 0.0, 0.0])))

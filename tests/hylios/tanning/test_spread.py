@@ -1,11 +1,14 @@
 """The sheet near which one kinetics' states lie: its colours against those of exact states."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hylios.adding import colours
 from hylios.errors import InputError
 from hylios.lab.colour import difference
+from hylios.skin.biology import Biology
 from hylios.skin.phototypes import phototype
 from hylios.tanning import Exposures, MelaninDynamics, spread_of, states_at
 
@@ -66,6 +69,24 @@ def test_tans_of_one_exposure_look_like_those_on_the_sheet(name, mean, largest):
     seen = colours(skin, on_sheet(sheet, states)[:, :4], count=4).total
     apart = difference(colours(skin, states, count=4).total, seen)
     assert apart.mean() < mean and apart.max() < largest
+
+
+@pytest.mark.parametrize(("name", "melanin"), [("I", 1.0), ("III", 1.0), ("III", 1.8), ("VI", 1.2)])
+def test_the_measured_kinetics_reaches_the_ends_of_its_sheet(name, melanin):
+    """Simulated alone: sheets of skins share what leads to their melanin. VI has room for less."""
+    usual = phototype(name).skin
+    skin = replace(usual, kinetics="measured", specimen=Biology(melanin).of(usual.specimen))
+    kinetics = skin.melanin_kinetics
+    sheet = spread_of(kinetics, mmd=skin.mmd, med=skin.med)
+    doses = skin.mmd * np.geomspace(1.05, 10.5, 24)[:, None]
+    times = np.arange(0.0, 1440.0, 12.0)
+    alone = states_at(Exposures([0], doses), kinetics, times=times, mmd=skin.mmd, med=skin.med)
+    u, v = np.log(alone[..., :3].sum(axis=-1)), np.log(alone[..., 3])
+    assert u.min() == pytest.approx(sheet.least.min(), abs=1e-12)
+    assert u.max() <= sheet.most.max() + 1e-12 and v.max() <= sheet.thicknesses[-1] + 1e-12
+    shares = alone[..., :3] / alone[..., :3].sum(axis=-1, keepdims=True)
+    told = sheet.states(u, v)[..., :3] / np.exp(u)[..., None]
+    np.testing.assert_allclose(told, shares, atol=0.004)
 
 
 @pytest.mark.parametrize("name", ["I", "III", "VI"])

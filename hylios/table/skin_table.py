@@ -95,17 +95,15 @@ class SkinTable:
 
         `blood` (B,) are logarithms, the last coordinates in place of those given.
         """
-        knots, numbers = self.axes.knots, self._nodes_of(names)
-        has_blood = blood is not None and isinstance(self.axes, LookAxes)
-        if has_blood:
+        knots, numbers, many = self.axes.knots, self._nodes_of(names), ()
+        if blood is not None and isinstance(self.axes, LookAxes):
             knots, numbers = sliced(knots, numbers, blood)
-        leading, own = coordinates.shape[:-1], coordinates[..., : len(knots)]
+            many = (blood.size,)
+        own = coordinates[..., : len(knots)]
         told = between(knots, numbers, own.reshape(-1, len(knots)))
-        if blood is not None:
-            many = blood.size if has_blood else 1
-            told = told.reshape(*leading, many, -1).repeat(blood.size // many, axis=-2)
-        else:
-            told = told.reshape(*leading, -1)
+        told = told.reshape(*coordinates.shape[:-1], *many, -1)
+        if blood is not None and not many:
+            told = told[..., None, :].repeat(blood.size, axis=-2)
         ends = np.cumsum([self.planes[name].shape[-1] for name in names])
         return dict(zip(names, np.split(told, ends[:-1], axis=-1), strict=True))
 

@@ -77,9 +77,12 @@ def _summary(beside: Sequence[Beside]) -> str:
     }
     fitted = sum(own.row.remark.startswith(("fitted", "set", "limits")) for own in beside)
     without = sum(own.is_met("measured") is None for own in beside)
+    guessed = [own.is_met("measured") for own in beside if own.row.is_estimate]
+    judged = [met for met in guessed if met is not None]
     text = (
         f"Of {len(met['measured'])} rows that can be judged the measured kinetics meets "
-        f"{sum(met['measured'])} and the thesis's {sum(met['thesis'])}. {fitted} of them were "
+        f"{sum(met['measured'])} and the thesis's {sum(met['thesis'])}; {len(judged)} rows are an "
+        f"ESTIMATE, and the measured kinetics meets {sum(judged)} of them. {fitted} rows were "
         f"fitted or set something, as the last column says. {without} more rows are "
         "not judged."
     )

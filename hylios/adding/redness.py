@@ -56,8 +56,9 @@ def erythema(skin: Skin, model: Model | None = None) -> ErythemaDynamics:
     --------
     Blood of the dermis a day after 2 MED, relative to its own:
 
+    >>> from dataclasses import replace
     >>> import hylios
-    >>> skin = hylios.skin_type("II")
+    >>> skin = replace(hylios.skin_type("II"), thickening="epidermis")
     >>> exposures = hylios.Exposures([0], [2 * skin.med])
     >>> state = skin.states(exposures, times=[24], erythema=hylios.erythema(skin))[0]
     >>> print(f"{state[4]:.1f} times")

@@ -19,12 +19,13 @@ from hylios.commands.shell import (
     add_tanning_arguments,
     chosen_region,
     note_estimates,
+    note_kinetics,
     note_redness,
 )
 from hylios.commands.texts import number_range
 from hylios.errors import InputError, require_range, require_whole, shown
 from hylios.quadrature import skin_quadrature
-from hylios.tanning import KINETICS, LONGEST_HOURS
+from hylios.tanning import LONGEST_HOURS
 
 MOST_DAYS = 1000
 WAVELENGTHS = 8
@@ -52,7 +53,7 @@ def add_row_arguments(parser: argparse.ArgumentParser) -> None:
     add_tanning_arguments(parser)
     add_kinetics_argument(parser)
     add_erythema_argument(
-        parser, "show redness after doses beyond the MED; then only the epidermis thickens"
+        parser, "show redness, just seen a day after 1 MED; then only the epidermis thickens"
     )
     add_exposure_arguments(parser)
 
@@ -94,8 +95,7 @@ def write_row(arguments: argparse.Namespace) -> None:
         light = spectra(tanned, few.wavelengths, angle=angle, model=of.model)
         seen = light.total @ few.weights.T
     note_estimates(of.model, skin_quadrature(WAVELENGTHS).wavelengths)
-    if skin.kinetics != "thesis":
-        print(f"note: the {skin.kinetics} kinetics is {KINETICS[skin.kinetics]}", file=sys.stderr)
+    note_kinetics(skin.kinetics)
     if reddening is not None:
         note_redness()
     _write(arguments, days, seen, size)

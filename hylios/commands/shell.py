@@ -184,10 +184,11 @@ def add_tanning_arguments(parser: argparse.ArgumentParser) -> None:
         help="set of tanning rates from table 6.4 (default: the specimen's or the type's)",
     )
     for option, help_text in (
-        ("--mmd", "minimal melanogenesis dose in SED, which tans (default: 3.2)"),
-        ("--med", "minimal erythema dose in SED, which reddens (default: 3.1)"),
+        ("--mmd", "minimal melanogenesis dose, which tans"),
+        ("--med", "minimal erythema dose, which reddens"),
     ):
-        parser.add_argument(option, type=float, metavar="SED", help=help_text)
+        usual = " (default: by the skin's melanin)"
+        parser.add_argument(option, type=float, metavar="SED", help=f"{help_text}{usual}")
     parser.add_argument(
         "--tanning",
         action="append",
@@ -211,6 +212,12 @@ def add_kinetics_argument(parser: argparse.ArgumentParser) -> None:
 def add_erythema_argument(parser: argparse.ArgumentParser, help_text: str) -> None:
     """Add `--erythema`."""
     parser.add_argument("--erythema", action="store_true", help=help_text)
+
+
+def note_kinetics(name: str) -> None:
+    """Say on standard error what of a kinetics other than the thesis's is an estimate."""
+    if name != "thesis":
+        print(f"note: the {name} kinetics is {KINETICS[name]}", file=sys.stderr)
 
 
 def note_redness() -> None:
@@ -295,6 +302,12 @@ def chosen_tanning_skin(arguments: argparse.Namespace, untanned: str = "steady_s
     InputError
         If there is none, or a part of it cannot be used.
     """
+    kinetics = getattr(arguments, "kinetics", "thesis")
+    if arguments.tanning and kinetics != "thesis":
+        raise InputError(
+            f"--tanning {arguments.tanning[0]} sets a rate of the thesis's kinetics; with "
+            f"--kinetics {kinetics} no rate can be set."
+        )
     specimen = chosen_specimen(arguments)
     rates = {
         rate: number(text, rate)
@@ -311,7 +324,7 @@ def chosen_tanning_skin(arguments: argparse.Namespace, untanned: str = "steady_s
         arguments.med,
         tanning=rates,
         untanned=untanned,
-        kinetics=getattr(arguments, "kinetics", "thesis"),
+        kinetics=kinetics,
     )
 
 

@@ -1,17 +1,19 @@
 """`hylios specimen`: the parameters of a specimen with units, physiological ranges and sources."""
 
 import argparse
+import sys
 import textwrap
-from dataclasses import MISSING
+from dataclasses import MISSING, asdict
 
 from hylios.commands.shell import (
     add_region_argument,
     add_specimen_arguments,
     chosen_specimen,
 )
+from hylios.errors import InputError
 from hylios.skin.phototypes import PHOTOTYPES, specimens
 from hylios.skin.physiology import PHYSIOLOGY
-from hylios.skin.specimen import ARRANGEMENTS, Specimen, parameters
+from hylios.skin.specimen import ARRANGEMENTS, Specimen, parameters, specimen_of
 from hylios.skin.specimen_file import specimen_toml
 
 COLUMNS = ("parameter", "value", "unit", "physiological", "range", "value from", "meaning")
@@ -33,6 +35,17 @@ def run(arguments: argparse.Namespace) -> None:
     """Print a table, or TOML."""
     specimen = chosen_specimen(arguments)
     print(specimen_toml(specimen) if arguments.toml else described(specimen), end="")
+    if arguments.toml and not is_physiological(specimen):
+        print("note: only --allow-unphysical reads this specimen again.", file=sys.stderr)
+
+
+def is_physiological(specimen: Specimen) -> bool:
+    """Whether commands take the specimen without being told to."""
+    try:
+        specimen_of(asdict(specimen))
+    except InputError:
+        return False
+    return True
 
 
 def described(specimen: Specimen) -> str:

@@ -13,6 +13,7 @@ from hylios.commands.dose_arguments import (
 from hylios.commands.shell import (
     add_erythema_argument,
     add_kinetics_argument,
+    note_kinetics,
     note_redness,
     print_rows,
 )
@@ -20,19 +21,26 @@ from hylios.commands.streams import progress
 from hylios.commands.texts import number
 from hylios.tanning import simulate_in_parts
 
+DESCRIPTION = """\
+Melanin and thickness of the epidermis after doses of ultraviolet, hour by hour, as CSV: melanin of
+the basale, spinosum and granulosum relative to their total at hour 0, that total, and the
+thickness relative to hour 0. Hours count from the beginning.
+"""
 COLUMNS = ("hour", "basale", "spinosum", "granulosum", "total", "thickness")
 
 
 def add_to(commands) -> None:
     """Add the command to an argument parser's subcommands."""
-    parser = commands.add_parser("tan", help="melanin and thickness of the epidermis over time")
+    parser = commands.add_parser(
+        "tan", help="melanin and thickness of the epidermis over time", description=DESCRIPTION
+    )
     parser.set_defaults(command=run)
     add_skin_in_light_arguments(parser)
     add_kinetics_argument(parser)
     add_erythema_argument(
         parser,
-        "print the blood of the dermis too, relative to hour 0: how red skin gets after doses "
-        "beyond its MED",
+        "print the blood of the dermis too, relative to hour 0, as sunburn widens its vessels; "
+        "skin of all types just seems redder a day after 1 MED",
     )
     add_exposure_arguments(parser)
     parser.add_argument("--hours", type=int, default=720, help="last hour (default: 720)")
@@ -58,6 +66,7 @@ def run(arguments: argparse.Namespace) -> None:
         step=step,
     )
     first = next(parts)
+    note_kinetics(of.skin.kinetics)
     if reddening is not None:
         note_redness()
     print(",".join(COLUMNS if reddening is None else (*COLUMNS, "blood")))

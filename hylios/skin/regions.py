@@ -19,16 +19,19 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hylios.errors import InputError
+from hylios.errors import InputError, require_range
 from hylios.skin.physiology import MOST_EPIDERMAL_MELANIN
 from hylios.skin.skin import MOST_BLOOD, flushed
-from hylios.skin.specimen import EPIDERMIS, Specimen
+from hylios.skin.specimen import EPIDERMIS, Specimen, require_specimen
 
 DARK_GROUP = "AF"
 """Group of `sites.csv` whose skin is dark; all others are light."""
 
 MOST_BELOW = 99.9
 """Most that the tissue below the dermis reflects, in %."""
+
+MOST_WEIGHT = 10.0
+"""Largest weight of a region."""
 
 UM = 1e-4
 """A micrometre in cm."""
@@ -152,6 +155,11 @@ class Region:
         specimen : Specimen
             Without a tan, or in that which the region has (`own_tan`).
 
+        Raises
+        ------
+        InputError
+            If that is no specimen, or the weight is out of range.
+
         Examples
         --------
         >>> import hylios
@@ -161,6 +169,8 @@ class Region:
         >>> palm.corneum_thickness
         0.0173
         """
+        require_specimen(specimen)
+        require_range("weight of the region", weight, 0.0, MOST_WEIGHT)
         blood = min(self.blood**weight, MOST_BLOOD)
         below = self.below**weight * specimen.hypodermis_reflectance
         corneum = self.corneum * UM * min(weight, 1.0)
@@ -192,25 +202,28 @@ def region(name: str, melanin: float) -> Region:
     Raises
     ------
     InputError
-        If there is no region of that name.
+        If there is no region of that name, or no skin has so much melanin.
     """
     if name not in REGIONS:
         raise InputError(
             f"there is no region {str(name)[:60]!r} of skin; there are {', '.join(REGIONS)}."
         )
+    require_range("melanin of the skin", melanin, 0.0, 1.0)
     row = _rows()[name]
     marks = {number: row[f"{number}_mark"] for number in NUMBERS}
     numbers = {number: float(row[number]) for number in NUMBERS if row[number]}
-    return Region(**{**numbers, **_of_site(row["site"], melanin)}, marks=MappingProxyType(marks))
+    if row["site"]:
+        of_site, stands_in = _of_site(row["site"], melanin)
+        numbers |= of_site
+        marks |= dict.fromkeys(of_site, "E") if stands_in else {}
+    return Region(**numbers, marks=MappingProxyType(marks))
 
 
 NUMBERS = ("melanin", "blood", "below", "tan", "corneum")
 
 
-def _of_site(site: str, melanin: float) -> dict[str, float]:
-    """Numbers of a site in skin of so much melanin; none of no site."""
-    if not site:
-        return {}
+def _of_site(site: str, melanin: float) -> tuple[dict[str, float], bool]:
+    """Numbers of a site in skin of so much melanin, and whether lighter people's stand for them."""
     ends = [[it for it in sites() if (it.group == DARK_GROUP) == is_dark] for is_dark in (0, 1)]
     anchors = [np.mean([np.log(it.arm_melanin) for it in end]) for end in ends]
     rows = [[it for it in end if it.name == site] for end in ends]
@@ -221,7 +234,9 @@ def _of_site(site: str, melanin: float) -> dict[str, float]:
     place = np.log(max(100.0 * melanin, 1e-6))
     part = float(np.clip((place - anchors[0]) / (anchors[1] - anchors[0]), 0.0, 1.0))
     between = np.exp(np.array(light) * (1.0 - part) + np.array(dark) * part)
-    return dict(zip(NUMBERS, map(float, between), strict=False))
+    darkest = max(it.arm_melanin for it in sites() if it.name == site)
+    stands_in = not rows[1] and 100.0 * melanin > darkest
+    return dict(zip(NUMBERS, map(float, between), strict=False)), stands_in
 
 
 def _melanin(specimen: Specimen, factor: float) -> dict[str, float]:

@@ -287,8 +287,17 @@ def whole_thickening(states: NDArray[np.floating]) -> NDArray[np.floating]:
     ----------
     states : (..., 4) or (..., 5) array
         As `Skin.at` takes them.
+
+    Raises
+    ------
+    InputError
+        If they have another shape.
     """
     states = np.asarray(states)
+    if states.ndim == 0 or states.shape[-1] not in {4, 5}:
+        raise InputError(
+            f"tanning states have shape {states.shape}; expected (..., 4) or (..., 5)."
+        )
     if states.shape[-1] == 4:
         states = np.concatenate([states, np.ones_like(states[..., :1])], axis=-1)
     thickness, blood = states[..., 3], states[..., 4]

@@ -73,7 +73,7 @@ class ErythemaDynamics:
 
     >>> from dataclasses import replace
     >>> import hylios
-    >>> skin = hylios.skin_type("II")
+    >>> skin = replace(hylios.skin_type("II"), thickening="epidermis")
     >>> quick = replace(hylios.erythema(skin), energy_decay=0.97)
     >>> state = skin.states(hylios.Exposures([0], [2 * skin.med]), times=[48], erythema=quick)[0]
     >>> print(f"{state[4]:.1f} times the blood")

@@ -102,6 +102,8 @@ def peeled_shares(
     InputError
         As there.
     """
+    if not isinstance(peeling, Peeling | None):
+        raise InputError(f"peeling is {str(peeling)[:60]!r}; expected a Peeling.")
     hours = as_numbers("times", times)
     if hours.ndim != 1 or not np.all((hours >= 0.0) & (hours <= LONGEST_HOURS)):
         raise InputError(f"times are {str(times)[:60]}; allowed is a list of 0 to {LONGEST_HOURS}.")
@@ -130,11 +132,22 @@ def without_peeled(
     ----------
     untanned : (3,) array
         Melanin of basale, spinosum, granulosum without sun (`Skin.untanned_melanin`).
+
+    Raises
+    ------
+    InputError
+        If shares are none of 0 to 1, or not as many as the states.
     """
-    left = np.array(states)
+    left, peeled = np.array(states), as_numbers("shares that have peeled", shares)
+    if not np.all((peeled >= 0.0) & (peeled <= 1.0)):
+        raise InputError(f"shares that have peeled are {str(shares)[:60]}; allowed is 0 to 1.")
+    if peeled.shape not in {(), left.shape[:-1]}:
+        raise InputError(
+            f"shares that have peeled have shape {peeled.shape}; expected {left.shape[:-1]}."
+        )
     taken = np.maximum(left[..., :3] - untanned, 0.0) * np.array(TAKEN)
     total = taken.sum(axis=-1)
     new = np.maximum(left[..., :3].sum(axis=-1) - untanned.sum(), 0.0)
-    held = np.minimum(new / np.maximum(total, 1e-30), 1.0) * np.asarray(shares, float)
+    held = np.minimum(new / np.maximum(total, 1e-30), 1.0) * peeled
     left[..., :3] -= held[..., None] * taken
     return left

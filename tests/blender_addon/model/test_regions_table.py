@@ -35,7 +35,7 @@ def test_spots_cover_the_share_that_balls_fill():
 def test_spots_and_estimates_are_those_of_the_regions():
     assert set(spots()) == {"freckles", "lentigines", "moles"}
     marked = {name for name in REGIONS if is_estimate(name)}
-    assert marked == {"freckles", "lentigines", "moles", "palms", "lips"}
+    assert marked == {"flush", "freckles", "lentigines", "moles", "palms", "lips"}
 
 
 TYPES = ("I", "II", "III", "IV", "V", "VI")

@@ -95,6 +95,23 @@ def test_a_specimen_written_to_a_file_tans_as_by_its_name(capsys, tmp_path, name
     assert outputs[0] == outputs[1]
 
 
+def test_a_file_that_no_command_takes_as_it_is_says_so(capsys):
+    assert main("specimen VI --region moles --toml".split()) == 0
+    assert "only --allow-unphysical reads this specimen again" in capsys.readouterr().err
+    assert main("specimen VI --region cheeks --toml".split()) == 0
+    assert "unphysical" not in capsys.readouterr().err
+
+
+def test_rates_of_the_thesis_are_not_of_the_measured_kinetics(capsys):
+    told = "tan --skin III --dose 0:3MMD --kinetics measured --hours 9"
+    assert main([*told.split(), "--tanning", "energy_decay=0.5"]) == 2
+    assert "--tanning energy_decay=0.5 sets a rate of the thesis's kinetics" in (
+        capsys.readouterr().err
+    )
+    assert main(told.split()) == 0
+    assert "the measured kinetics is fitted" in capsys.readouterr().err
+
+
 def test_tan_prints_every_hour(capsys):
     arguments = ["tan", "--pigmentation", "intermediate", "--dose", "0:30", "--mmd", "2.89"]
     assert main([*arguments, "--med", "1.7", "--hours", "240"]) == 0

@@ -5,11 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hylios.adding import spectra
+from hylios.colour_difference import ciede2000, lab
 from hylios.errors import InputError
 from hylios.lab import site_fits
+from hylios.lab.colour import linear_rec709
 from hylios.skin.phototypes import named_specimen, skin_type
 from hylios.skin.regions import REGIONS, region, sites
 from hylios.skin.specimen import EPIDERMIS
+
+SITES = dict(zip(("cheek", "forehead", "ear lobe", "ring finger", "palm"), REGIONS, strict=False))
 
 LIGHT, DARK = 0.031, 0.23
 """Melanin of types II and VI."""
@@ -20,7 +25,27 @@ def test_numbers_are_those_that_were_measured_and_marked_where_they_were_not():
     assert region("vitiligo", LIGHT).melanin == 0.0
     assert (region("palms", LIGHT).tan, region("moles", LIGHT).tan) == (0.0, 0.0)
     estimates = {name for name in REGIONS if region(name, LIGHT).is_estimate}
-    assert estimates == {"freckles", "lentigines", "moles", "palms", "lips"}
+    assert estimates == {"flush", "freckles", "lentigines", "moles", "palms", "lips"}
+
+
+def test_ears_of_people_darker_than_those_measured_are_an_estimate():
+    assert not region("ears", LIGHT).is_estimate
+    assert region("ears", DARK).is_estimate
+    assert not region("fingers", DARK).is_estimate
+
+
+@pytest.mark.parametrize("melanin", ["a", 5.0, np.nan, -1.0])
+def test_a_region_is_of_a_share_of_melanin(melanin):
+    with pytest.raises(InputError, match="melanin of the skin is .*(0 to 1|a number)"):
+        region("cheeks", melanin)
+
+
+def test_a_region_is_of_a_specimen_and_of_a_weight():
+    cheeks = region("cheeks", LIGHT)
+    with pytest.raises(InputError, match="specimen"):
+        cheeks.of("II")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="weight of the region is 1e.06; allowed is 0 to 10"):
+        cheeks.of(named_specimen("II"), 1e6)
 
 
 def test_sites_are_geometric_means_of_light_people_and_of_africans():
@@ -53,6 +78,31 @@ def test_a_fit_gives_the_row_of_the_table():
         [told.arm_melanin, told.melanin, told.blood, told.below], abs=0.002
     )
     assert told.below > 1.1
+
+
+@pytest.mark.slow
+def test_one_row_for_all_light_people_is_nearer_to_each_than_their_inner_arms():
+    """Mean CIEDE2000 over the groups, 1.1 to 2.9 where inner arms are off by 3.5 to 7.9."""
+    off = {name: [] for name in SITES}
+    people = site_fits.measured()
+    arms = {it.group: site_fits.arm_of(it) for it in people if it.site == site_fits.ARM}
+    for it in people:
+        if it.site == site_fits.ARM or it.group == "AF":
+            continue
+        arm = arms[it.group]
+        own = region(SITES[it.site], arm.pigmentation).of(arm)
+        seen = spectra([own, arm], it.wavelengths, angle=8.0).total
+        colours = linear_rec709(it.wavelengths, np.array([*seen, it.reflectance]))
+        off[it.site].append(ciede2000(lab(colours[:2]), lab(colours[2:])))
+    means = {site: np.mean(values, axis=0) for site, values in off.items()}
+    assert {site: round(float(own), 1) for site, (own, _) in means.items()} == {
+        "cheek": 1.3,
+        "forehead": 1.2,
+        "ear lobe": 2.9,
+        "ring finger": 0.3,
+        "palm": 2.0,
+    }
+    assert all(own < 0.6 * arm for own, arm in means.values())
 
 
 def test_a_freckle_has_half_as_much_again_and_up_to_four_times_the_melanin():

@@ -180,6 +180,8 @@ def test_one_table_holds_both_ways_of_thickening(name):
     alike = ciede2000(exact, lab(colours(skin, whole_thickening(states)).total))
     assert alike.mean() < 0.1 and alike.max() < 0.2
     assert np.all(whole_thickening(states[:, :4])[:, 3:] == 1.0)
+    with pytest.raises(InputError, match="shape"):
+        whole_thickening(states[:, :3])
     if name == "I":
         assert ciede2000(exact, lab(colours(skin, states).total)).max() > 0.5
 

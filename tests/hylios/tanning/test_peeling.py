@@ -85,3 +85,11 @@ def test_histories_times_and_limits():
             Peeling(**change)
     with pytest.raises(InputError, match="times are -1"):
         peeled(many, -1)
+
+
+@pytest.mark.parametrize("shares", [5.0, np.nan, "a", [0.1, 0.2, 0.3]])
+def test_shares_that_have_peeled_are_0_to_1_and_one_for_each_state(shares):
+    untanned = hylios.skin_type("II").untanned_melanin
+    states = np.ones((2, 4))
+    with pytest.raises(InputError, match="shares that have peeled"):
+        without_peeled(states, untanned, shares)

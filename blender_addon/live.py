@@ -170,8 +170,6 @@ def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
     for role, image in (nodes.own_look(settings.group) or {}).items():
         values = offsets(look) if role == "own_image" else getattr(look, LOOK_VALUES[role])
         images.swap_pixels(image, values, content, pack=True)
-        if role == "colour":
-            image.buffers_free()  # Blender converts colours as it reads them from the packed file
 
 
 def _is_only_look_changed(obj: bpy.types.Object, text: str) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 
 from hylios.errors import InputError
 
+from . import exr
 from .changes import Changes
 from .ownership import Users
 
@@ -56,12 +57,14 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     InputError
         If Blender's colour management has no space that fits.
     """
-    image = _float_image(name, values, is_colour=is_colour)
+    rows, columns, _ = values.shape
+    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
+    set_colour_space(image, is_colour=is_colour)
+    if not is_colour:
+        # EEVEE would keep 11 bits, too few for a place between two texels.
+        cast(Any, image).use_half_precision = False
     image[MARK] = image.name
-    image.pack()
-    # Blender takes pixels that are set for numbers of its working space; those that it reads from
-    # the packed file it converts.
-    image.buffers_free()
+    _pack(image, values)
     return image
 
 
@@ -83,16 +86,17 @@ def packed_bytes(name: str, values: np.ndarray) -> bpy.types.Image:
     return image
 
 
-def _float_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:
-    rows, columns, _ = values.shape
-    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
-    # Setting it after the pixels would discard them.
-    set_colour_space(image, is_colour=is_colour)
-    _set_pixels(image, values)
-    if not is_colour:
-        # EEVEE would keep 11 bits, too few for a place between two texels.
-        cast(Any, image).use_half_precision = False
-    return image
+def _pack(image: bpy.types.Image, values: np.ndarray) -> None:
+    """Pack values into a float image, which shows what is packed from now on.
+
+    Blender takes pixels that are set for numbers of its working space; those that it reads from
+    the packed file it converts.
+    """
+    data = exr.encoded(values)
+    cast(Any, image).pack(data=data, data_len=len(data))
+    if image.source != "FILE":
+        image.source = "FILE"
+    image.buffers_free()
 
 
 def linear(values: np.ndarray) -> np.ndarray:
@@ -127,7 +131,7 @@ def swap_pixels(image: bpy.types.Image, values: np.ndarray, content: str, *, pac
     _set_pixels(image, values)
     image[SHOWN] = content
     if pack:
-        image.pack()
+        _pack(image, values)
         image[LASTING] = content
 
 

@@ -10,7 +10,7 @@ from blender_addon import applied, live, timers
 from blender_addon.model import catalogue
 from blender_addon.model.own_colour import offsets
 from blender_addon.model.tan import history_of, look_of
-from blender_addon.scene import own_colour
+from blender_addon.scene import exr, own_colour
 
 FEW, MANY = 60, 500
 SEEDS = (1, 2, 3)
@@ -86,19 +86,19 @@ def settled() -> None:
     assert not applied.is_changed(obj, scene)
     values = obj.skin_tan.values()
     history, look = history_of(values), look_of(values)
-    np.testing.assert_array_equal(
-        pixels(of_role(obj, "states").image)[..., :3], history.coordinates
-    )
-    np.testing.assert_array_equal(
-        pixels(of_role(obj, "rows").image)[..., :2], history.places[..., :2]
-    )
-    np.testing.assert_allclose(pixels(of_role(obj, "colour").image)[..., :3], look.colour, 1e-6)
+    _require_shown(obj, "states", history.coordinates)
+    _require_shown(obj, "rows", history.places)
+    _require_shown(obj, "colour", look.colour)
     assert own_colour.is_shown(obj.skin_tan.group) == obj.skin_tan.own_colour
     if obj.skin_tan.own_colour:
-        shown = pixels(of_role(obj, "own_image").image)[..., :3]
-        np.testing.assert_allclose(shown, offsets(look), 1e-6)
+        _require_shown(obj, "own_image", offsets(look))
     for image in bpy.data.images:
         assert image.packed_file is not None and image.size[0] > 0
+
+
+def _require_shown(obj, role: str, values: np.ndarray) -> None:
+    shown = pixels(of_role(obj, role).image)[..., :3]
+    np.testing.assert_array_equal(shown, exr.rounded(values))
 
 
 def run(seed: int, folder, steps: int) -> None:

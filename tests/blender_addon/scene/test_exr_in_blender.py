@@ -1,10 +1,11 @@
-"""The reader of tables against Blender's own image loader."""
+"""The reader of tables, and the writer of images, against Blender's own image loader."""
 
 import bpy
 import numpy as np
 import OpenImageIO as oiio  # noqa: N813
 import pytest
 
+from blender_addon.scene import exr, images
 from hylios.table import exr_reader
 
 
@@ -38,3 +39,18 @@ def test_blender_shows_a_table_s_planes_as_layers(table_path, table):
     node = group.nodes.new("CompositorNodeImage")
     node.image = image
     assert {output.name for output in node.outputs} >= set(table.planes)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 1025), (17, 2), (33, 20)])
+@pytest.mark.parametrize("noise", [0.0, 1.0])
+def test_blender_loads_what_is_packed(shape, noise):
+    """Blocks that deflate makes smaller, and others; 24 bits of a float are kept."""
+    random = np.random.default_rng(3)
+    smooth = np.linspace(-1.0, 2.0, 3 * np.prod(shape)).reshape(*shape, 3)
+    values = (smooth + noise * random.normal(size=smooth.shape)).astype(np.float32)
+    image = images.packed_image("Table", values, is_colour=False)
+    loaded = np.empty((*shape, 4), dtype=np.float32)
+    image.pixels.foreach_get(loaded.ravel())
+    assert image.source == "FILE" and image.is_float and not image.is_dirty
+    assert np.array_equal(loaded[..., :3], exr.rounded(values))
+    assert loaded[..., :3] == pytest.approx(values, rel=2.0**-16, abs=0.0)

@@ -26,6 +26,10 @@ BIOLOGY = "biology"
 SKIN = frozenset("skin table_path kinetics".split())
 """Properties that say whose look it is, and in which tans it is at all."""
 
+LATER = frozenset(["peeling"])
+"""Properties that came after files held such texts: one that nobody has set is not told, so that a
+tan of before counts as shown."""
+
 SEPARATOR = "\n"
 
 Frames = tuple[int, int, int, float]
@@ -74,7 +78,7 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene, frames: Frames | None
         to render, or another scene with the object, is no change of the tan.
     """
     settings = settings_of(obj)
-    names = [prop.identifier for prop in settings.bl_rna.properties]
+    names = _names(settings)
     others = {*NOTES, *SCHEDULE, *SKIN, BIOLOGY}
     schedule, skin, rest = (
         [_value(settings, name) for name in kept]
@@ -139,5 +143,9 @@ def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> objec
 
 
 def _values(group: bpy.types.PropertyGroup) -> list[object]:
+    return [_value(group, name) for name in _names(group) if name not in ("rna_type", "name")]
+
+
+def _names(group: bpy.types.PropertyGroup | SkinTanSettings) -> list[str]:
     names = [prop.identifier for prop in group.bl_rna.properties]
-    return [_value(group, name) for name in names if name not in ("rna_type", "name")]
+    return [name for name in names if name not in LATER or group.is_property_set(name)]

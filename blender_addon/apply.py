@@ -13,7 +13,7 @@ from .model.film import film_of
 from .model.look import untanned_colour
 from .model.regions import shown as shown_region
 from .model.regions import spots
-from .model.response import holds_redness
+from .model.response import holds_redness, tells_skin
 from .model.settings import TanSettings
 from .model.size import lines_on
 from .model.tan import Tan, tan_of
@@ -28,6 +28,7 @@ from .scene import (
     mask_nodes,
     masks,
     nodes,
+    peeling,
     recolour,
     regions,
     size,
@@ -83,10 +84,10 @@ def apply_tan(
         made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
         timed = timing.key(obj, scene, days, frames, changes)
         regions.show(obj, skin.group, _regions(settings, values), unit, changes)
+        peeling.show(skin.group, obj, unit, changes, is_on=tan.peeling is not None)
         sampled, told = own_colour.prepare(obj, skin, tan.look, _sampled(tan, obj, unit), changes)
         replaced = nodes.update(skin.group, sampled, changes)
-        mask = settings.shown_mask()
-        shown = mask_nodes.shown_mask(obj, mask, changes)
+        shown = mask_nodes.shown_mask(obj, settings.shown_mask(), changes)
         mask_nodes.show(skin.group, shown, changes)
         replaced |= several.show(obj, skin.group, of_masks, changes)
         _show_film(obj, skin, sampled, changes)
@@ -193,7 +194,8 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
 
 
 def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
-    history, look = tan.history, tan.look
+    history, look, peeled = tan.history, tan.look, tan.peeling
+    name = f"Skin Tan Peeling {obj.name}"
     return nodes.Sampled(
         states=images.packed_image(
             f"Skin Tan States {obj.name}", history.coordinates, is_colour=False
@@ -216,6 +218,7 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
         first_day=history.first_day,
         last_day=history.last_day,
         scene_unit=unit,
+        peel_image=None if peeled is None else images.packed_image(name, peeled, is_colour=False),
     )
 
 
@@ -223,7 +226,7 @@ def _note(
     obj: bpy.types.Object, sampled: nodes.Sampled, text: str, changes: Changes, *, rough: bool
 ) -> None:
     """Note in images, and where they are exact on the object, of which settings they are."""
-    images.note_content((sampled.states, sampled.places), applied.digest(text))
+    images.note_content(sampled.of_history(), applied.digest(text))
     if rough and settings_of(obj).biology.is_changed():
         images.note_shown(sampled.of_look(), applied.look_digest(text))
     if not rough:
@@ -314,6 +317,8 @@ def _remarks(obj: bpy.types.Object, skin: skins.Skin, values: TanSettings, tan: 
     table = catalogue.table(values.table)
     if values.redness and not holds_redness(table):
         remarks.append("The table holds no blood, so no sunburn shows.")
+    if values.peeling and not tells_skin(table):
+        remarks.append("The table does not say how its skin burns, so nothing peels.")
     if values.kinetics not in table.kinetics:
         remarks.append(
             "The table holds tans as in the thesis only, so one as measured in people is rough; "

@@ -23,7 +23,7 @@ from . import applied, timers
 from .apply import apply_tan, tannable
 from .model.history import DRAG, FULL, Precision
 from .model.own_colour import offsets
-from .model.tan import history_of, look_of
+from .model.tan import history_of, look_of, peeling_of
 from .props import settings_of
 from .scene import images, nodes, several
 from .scene.ownership import Users
@@ -153,9 +153,10 @@ def show_schedule(obj: bpy.types.Object, text: str, precision: Precision) -> Non
     """
     tannable(obj)
     settings = settings_of(obj)
-    history = history_of(settings.values(), precision)
-    pairs = zip(_history(obj), (history.coordinates, history.places), strict=True)
-    for image, values in pairs:
+    values = settings.values()
+    history, peeling = history_of(values, precision), peeling_of(values)
+    told = [history.coordinates, history.places, *([] if peeling is None else [peeling])]
+    for image, values in zip(_history(obj), told, strict=True):
         images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
     if precision is FULL:
         settings.applied = text
@@ -223,7 +224,7 @@ def _is_alone(obj: bpy.types.Object) -> bool:
     return nodes.own_history(group) is not None and not Users().others(group, obj)
 
 
-def _history(obj: bpy.types.Object) -> tuple[bpy.types.Image, bpy.types.Image]:
+def _history(obj: bpy.types.Object) -> tuple[bpy.types.Image, ...]:
     return cast(Any, nodes.own_history(settings_of(obj).group))
 
 

@@ -58,6 +58,7 @@ GERMAN = {
     "As Measured in People": "Wie an Menschen gemessen",
     "As in the Thesis": "Wie in der Dissertation",
     "Sunburn": "Sonnenbrand",
+    "Peeling": "Hautschälung",
     "Set Sensitivity by Hand": "Empfindlichkeit selbst setzen",
     "Tans from (SED)": "Bräunt ab (SED)",
     "Burns from (SED)": "Rötet ab (SED)",

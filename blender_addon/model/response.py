@@ -41,8 +41,12 @@ def response_of(table: SkinTable, kinetics: str = "thesis", redness: bool = Fals
 
 def holds_redness(table: SkinTable) -> bool:
     """Whether a table tells how a skin looks with more blood, and what skin that is."""
-    if not isinstance(table.axes, LookAxes) or len(table.axes.knots[BLOOD]) < 2:
-        return False
+    has_blood = isinstance(table.axes, LookAxes) and len(table.axes.knots[BLOOD]) > 1
+    return has_blood and tells_skin(table)
+
+
+def tells_skin(table: SkinTable) -> bool:
+    """Whether a table says whose skin it is of, and so how it burns."""
     try:
         skin_of(table.provenance)
     except InputError:

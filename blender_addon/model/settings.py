@@ -108,6 +108,8 @@ class TanSettings:
         One of `hylios.tanning.KINETICS`.
     redness : bool
         Whether the skin reddens after the sun.
+    peeling : bool
+        Whether burnt skin peels.
 
     Raises
     ------
@@ -123,6 +125,7 @@ class TanSettings:
     biology: Biology = UNCHANGED
     kinetics: str = "thesis"
     redness: bool = False
+    peeling: bool = False
 
     def __post_init__(self):
         check_days(self.first_day, self.last_day)

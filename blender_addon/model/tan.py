@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+import hylios
 from hylios.errors import InputError
 from hylios.skin.biology import Biology
 from hylios.sun.doses import Doses
-from hylios.table import MinimalDoses, SkinTable
+from hylios.table import MinimalDoses, SkinTable, skin_of
 from hylios.threads import one_thread
 
 from . import catalogue, doses
@@ -21,7 +22,8 @@ from .biology import table_with
 from .grid import DRAG_GRID, FULL_GRID, counts_of_grid, images_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
-from .response import Response, response_of
+from .peeling import peeling_image
+from .response import Response, melanin_of, response_of, tells_skin
 from .settings import Exposure, TanSettings, check_days
 
 
@@ -35,10 +37,13 @@ class Tan:
         Over time and over the share of the dose; knows no optics.
     look : Look
         Over the states of the skin; knows no time.
+    peeling : (rows, columns, 3) array or None
+        What peels, where burnt skin is to (`peeling_image`).
     """
 
     history: History
     look: Look
+    peeling: NDArray[np.float32] | None = None
 
 
 def tan_of(settings: TanSettings, *, rough: bool = False) -> Tan:
@@ -54,7 +59,7 @@ def tan_of(settings: TanSettings, *, rough: bool = False) -> Tan:
     InputError
         If a setting or the table cannot be used.
     """
-    return Tan(history_of(settings), look_of(settings, rough=rough))
+    return Tan(history_of(settings), look_of(settings, rough=rough), peeling_of(settings))
 
 
 def look_of(settings: TanSettings, *, rough: bool = False) -> Look:
@@ -119,6 +124,44 @@ def _history(
     table = catalogue.table(path)
     received = doses.received(exposures, minimal.mmd, table.provenance)
     return history_within(table, received, minimal, days, precision, response_of(table, *how))
+
+
+def peeling_of(settings: TanSettings) -> NDArray[np.float32] | None:
+    """What peels of an object's skin (`peeling_image`); None where nothing does.
+
+    Raises
+    ------
+    InputError
+        If a setting or the table cannot be used.
+    """
+    if not (settings.peeling and tells_skin(catalogue.table(settings.table))):
+        return None
+    minimal = settings.minimal_doses(catalogue.provenance(settings.table))
+    days = settings.first_day, settings.last_day
+    stamp = catalogue.stamp(settings.table)
+    return _peeling(settings.table, stamp, settings.exposures, minimal, days, settings.kinetics)
+
+
+@functools.lru_cache(maxsize=4)
+def _peeling(
+    path: Path,
+    stamp: tuple[int, int],
+    exposures: tuple[Exposure, ...],
+    minimal: MinimalDoses,
+    days: tuple[float, float],
+    kinetics: str,
+) -> NDArray[np.float32]:
+    """The image, kept."""
+    del stamp  # of the table's file, so that another one counts
+    table = catalogue.table(path)
+    return peeling_image(
+        doses.received(exposures, minimal.mmd, table.provenance),
+        melanin_of(table, kinetics),
+        hylios.erythema(skin_of(table.provenance)),
+        mmd=minimal.mmd,
+        med=minimal.med,
+        days=days,
+    )
 
 
 def history_within(

@@ -34,9 +34,10 @@ from ..model.settings import (
     minimal_doses,
     own_minimal_doses,
 )
-from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, OWN, SCENE, SPEED, Timing
+from ..model.timing import FRAMES, LARGEST_SPEED, LEAST_SPEED, SCENE, Timing
 from ..scene.masks import Mask
 from .biology import SkinTanBiology
+from .choices import FILMS, TIMINGS
 from .exposure import SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask, follow_image, take_attribute, usable_names
 from .material import SkinTanMaterial
@@ -51,21 +52,6 @@ from .response import (
     redness_of,
 )
 from .skins import SKIN_ITEMS, USUAL_SKIN, table_file
-
-FILMS = (
-    ("NONE", "Dry", "Nothing lies on the skin"),
-    ("WATER", "Water", "Skin that came out of the water"),
-    ("OIL", "Oil", "Oiled skin"),
-    ("SUNSCREEN", "Sunscreen", "Skin with sunscreen on it; times in the sun set how it protects"),
-)
-"""What may lie on the skin, the names of liquids in capitals."""
-
-TIMINGS = (
-    (SCENE, "Scene's Frames", "From the first to the last frame of the scene"),
-    (SPEED, "Start and Speed", "From a frame on, so many days in a second of animation"),
-    (FRAMES, "Two Frames", "From one frame to another"),
-    (OWN, "Own Keys", "By your own keys of the object's property tan_day; Apply leaves them"),
-)
 
 
 def _set_two_frames(settings: "SkinTanSettings", _: bpy.types.Context) -> None:
@@ -165,6 +151,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         min=NOT_KEPT,
         max=1,
         options={"HIDDEN"},
+    )
+    peeling: BoolProperty(
+        name="Peeling",
+        description="Four to eight days after 3 burn doses and more, skin peels in patches with "
+        "loose edges, and loses most of its tan there; that heals in weeks. An estimate",
     )
     model_scale: FloatProperty(
         name="Model Scale",
@@ -326,6 +317,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
             biology=self.biology.values(),
             kinetics=self.kinetics.lower(),
             redness=self.redness,
+            peeling=self.peeling,
         )
 
     def response_numbers(self) -> dict[str, int]:

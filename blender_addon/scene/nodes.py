@@ -44,6 +44,7 @@ IMAGE_KEYS = {
     "columns": "skin_tan_places",
     **{role: f"skin_tan_{role}" for role in LOOK},
     "own_image": "skin_tan_own_image",
+    "peel_image": "skin_tan_peel_image",
 }
 """Custom properties of a group: the images that were made for it, whatever its nodes show."""
 
@@ -79,6 +80,8 @@ class Sampled:
         Length of a scene unit in metres, on a body of life-size.
     own_image : Image or None
         Melanin and blood of painted colours, where these say how skin tans.
+    peel_image : Image or None
+        What peels over days and shares, where skin peels.
     """
 
     states: bpy.types.Image
@@ -96,6 +99,7 @@ class Sampled:
     last_day: float
     scene_unit: float
     own_image: bpy.types.Image | None = None
+    peel_image: bpy.types.Image | None = None
 
     @property
     def images(self) -> dict[str, bpy.types.Image]:
@@ -108,7 +112,12 @@ class Sampled:
             "thick_colour": self.look["colour"],
             "untanned": self.look["colour"],
             **({"own_image": self.own_image} if self.own_image else {}),
+            **({"peel_image": self.peel_image} if self.peel_image else {}),
         }
+
+    def of_history(self) -> list[bpy.types.Image]:
+        """The images that come from the history."""
+        return [self.states, self.places, *([self.peel_image] if self.peel_image else [])]
 
     def of_look(self) -> list[bpy.types.Image]:
         """The images that come from the look."""
@@ -167,13 +176,16 @@ def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
     return [image for key in IMAGE_KEYS.values() if (image := group.get(key)) is not None]
 
 
-def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, bpy.types.Image] | None:
-    """Images of states and of places that a group shows, where both were made for it."""
+def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, ...] | None:
+    """Images of states, of places and, if it peels, of that, where all were made for a group."""
     shown = {node.image for role in ("states", "rows", "columns") for node in of_role(group, role)}
     states, places = (group.get(IMAGE_KEYS[role]) for role in ("states", "columns"))
     if states is None or places is None or shown != {states, places}:
         return None
-    return states, places
+    peeling = {node.image for node in of_role(group, "peel_image")}
+    if peeling - {group.get(IMAGE_KEYS["peel_image"])} or None in peeling:
+        return None
+    return states, places, *peeling
 
 
 def own_look(group: bpy.types.NodeTree) -> dict[str, bpy.types.Image] | None:

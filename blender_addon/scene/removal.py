@@ -16,6 +16,7 @@ from . import (
     detail,
     images,
     nodes,
+    peeling_nodes,
     recolour,
     region_nodes,
     several,
@@ -241,6 +242,7 @@ def _remove_groups(groups: Iterable[Any]) -> None:
         if is_ours and is_local(tree) and tree.users == 0:
             bpy.data.node_groups.remove(tree)
     detail.remove_unused_group()
+    peeling_nodes.remove_unused_group()
     images.remove_unused()
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from hylios.errors import require_range
 
-from . import detail, nodes, regions, slots
+from . import detail, nodes, peeling, regions, slots
 from .changes import Changes
 from .ownership import is_local, remembered
 
@@ -81,6 +81,7 @@ def fit(obj: bpy.types.Object, scene: bpy.types.Scene, changes: Changes) -> None
     if group is not None:
         detail.set_size(list(slots.shown_trees(obj, group)), obj, unit, changes)
         regions.set_size(group, obj, unit, changes)
+        peeling.set_size(group, obj, unit, changes)
 
 
 def _radii(group: Any) -> list[Any]:

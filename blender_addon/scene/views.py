@@ -1,8 +1,4 @@
-"""Views of tanned skin in bands outside the visible: nodes put into a tan's group, and out again.
-
-Some of these nodes stand in for a link: what they replace is still linked to one of their inputs.
-So they can be taken out again, and all is as it was.
-"""
+"""Views of tanned skin in bands outside the visible: nodes put into a tan's group, taken out."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,10 +10,11 @@ from mathutils import Color
 
 from hylios.errors import InputError
 
-from . import nodes, recolour, slots
+from . import nodes, recolour, slots, stand_ins
 from .changes import Changes
 from .ownership import is_local
-from .plan import ROLE_KEY, Link, Role
+from .plan import Link, Role
+from .stand_ins import StandIn
 
 VIEW_KEY = "skin_tan_view"
 """Custom property of scenes and of groups: the view that they show, if it is not the visible."""
@@ -70,27 +67,6 @@ LINKS: tuple[Link, ...] = (
     ("view_tint", "Color", "skin", "Specular Tint"),
     ("view_tint", "Color", "near_skin", "Specular Tint"),
 )
-
-
-@dataclass(frozen=True)
-class StandIn:
-    """What a node of a view replaces: all that a node's output is linked to.
-
-    Attributes
-    ----------
-    role, output
-        Of the replaced node.
-    input, gives
-        Input that keeps the replaced output, and output that stands in for it.
-    but : str
-        Role of a node that goes on to show what is replaced.
-    """
-
-    role: str
-    output: str
-    input: str | int
-    gives: str
-    but: str = ""
 
 
 STAND_INS = {
@@ -179,8 +155,8 @@ def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None
     if lacking:
         changes.may_add_to(group.nodes)
         nodes.complete(group, lacking, ROLES, LINKS)
-    for role in STAND_INS:
-        _stand_in(group, role)
+    for role, plan in STAND_INS.items():
+        stand_ins.put_in(group, role, plan)
     for role, socket, value in (
         ("view_near", 1, _unit_vector(band.nearest)),
         ("view_width", 1, _unit_vector(band.nearest)),
@@ -220,31 +196,8 @@ def _unit_vector(channel: int) -> tuple[float, ...]:
     return tuple(float(channel == other) for other in range(3))
 
 
-def _stand_in(group: Any, role: str) -> None:
-    """Put a node into the links from what it replaces, where it is not in them yet."""
-    plan = STAND_INS[role]
-    node = next(nodes.of_role(group, role), None)
-    replaced = next(nodes.of_role(group, plan.role), None)
-    if node is None or replaced is None:
-        return
-    start = nodes.find_output(replaced, plan.output)
-    ends = [
-        link.to_socket
-        for link in start.links
-        if link.to_node != node and (not plan.but or link.to_node.get(ROLE_KEY) != plan.but)
-    ]
-    for end in ends:
-        group.links.new(nodes.find_output(node, plan.gives), end)
-    group.links.new(start, nodes.find_input(node, plan.input))
-
-
 def _take_out(group: Any) -> None:
-    for role, plan in STAND_INS.items():
-        for node in nodes.of_role(group, role):
-            kept = nodes.find_input(node, plan.input)
-            nodes.bridge(group, kept, nodes.find_output(node, plan.gives))
-    for node in [node for role in ROLES for node in nodes.of_role(group, role)]:
-        group.nodes.remove(node)
+    stand_ins.take_out(group, STAND_INS, ROLES)
     group.pop(VIEW_KEY, None)
 
 

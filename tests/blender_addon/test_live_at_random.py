@@ -9,8 +9,10 @@ from scenes import apply, of_role, pixels, tan_object
 from blender_addon import applied, live, timers
 from blender_addon.model import catalogue
 from blender_addon.model.own_colour import offsets
-from blender_addon.model.tan import history_of, look_of
-from blender_addon.scene import exr, own_colour
+        _require_shown(obj, "own_image", offsets(look))
+    assert peeling.is_shown(obj.skin_tan.group) == obj.skin_tan.peeling
+    if obj.skin_tan.peeling:
+        _require_shown(obj, "peel_image", peeling_of(values))
 
 FEW, MANY = 60, 500
 SEEDS = (1, 2, 3)
@@ -29,7 +31,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(10)
+        kind = self.random.integers(11)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -47,6 +49,8 @@ class Artist:
             settings.redness = not settings.redness
         elif kind == 7:
             settings.kinetics = str(self.random.choice(["MEASURED", "THESIS"]))
+        elif kind == 8:
+            settings.peeling = not settings.peeling
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 
@@ -91,7 +95,16 @@ def settled() -> None:
     _require_shown(obj, "colour", look.colour)
     assert own_colour.is_shown(obj.skin_tan.group) == obj.skin_tan.own_colour
     if obj.skin_tan.own_colour:
+<<<<<<< HEAD
         _require_shown(obj, "own_image", offsets(look))
+=======
+        shown = pixels(of_role(obj, "own_image").image)[..., :3]
+        np.testing.assert_allclose(shown, offsets(look), 1e-6)
+    assert peeling.is_shown(obj.skin_tan.group) == obj.skin_tan.peeling
+    if obj.skin_tan.peeling:
+        shown = pixels(of_role(obj, "peel_image").image)[..., :3]
+        np.testing.assert_array_equal(shown, peeling_of(values))
+>>>>>>> 3b52efa (Peeling in the scene: burnt skin comes off in patches with loose edges, and takes its tan along)
     for image in bpy.data.images:
         assert image.packed_file is not None and image.size[0] > 0
 

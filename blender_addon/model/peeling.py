@@ -1,0 +1,129 @@
+"""What peels by day and by share of the dose, as an image. ESTIMATE, as the model's peeling is.
+
+The model says how much of the skin has peeled. Which places these are a pattern says, whose values
+are spread as `SPREAD` has them: a place has peeled where its value is above a threshold.
+"""
+
+from statistics import NormalDist
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hylios.sun.doses import Doses
+from hylios.tanning import (
+    ErythemaDynamics,
+    Exposures,
+    Kinetics,
+    peeled_shares,
+    states_at,
+    without_peeled,
+)
+
+COLUMNS, ROWS_A_DAY, MOST_ROWS = 64, 4, 256
+"""Shares of the image; rows of a day, and of all days at most."""
+
+STEP = 6.0
+"""Hours between two times at which peeling is followed."""
+
+SPREAD = NormalDist(0.534, 0.083)
+"""Values of the pattern of `scene.peeling_nodes` over skin."""
+
+LEAST_SHARE = 0.0005
+"""Peeled shares below this, and what is left below it, are none."""
+
+HEALED = 0.05
+"""Of what had peeled, what is left when the next burn begins with whole skin."""
+
+HANGING = 30.0
+"""Hours in which of loose flakes 1/e are left."""
+
+LOOSE = 5.0
+"""A fifth of the peeled skin that has come off in a day has all edges loose."""
+
+FEW = 0.03
+"""With less of the skin peeled, edges are less loose, so that none follow the hem of a mask."""
+
+
+def peeling_image(
+    received: Doses,
+    melanin: Kinetics,
+    erythema: ErythemaDynamics,
+    *,
+    mmd: float,
+    med: float,
+    days: tuple[float, float],
+) -> NDArray[np.float32]:
+    """Peeling of places by days and shares of doses, (rows, columns, 3).
+
+    In red the threshold of the pattern, in green what part of its new melanin a peeled place has
+    lost and not yet regained, in blue how many of the edges are loose. Rows and columns are even;
+    the outer ones tell the ends of the days and of the shares.
+
+    Parameters
+    ----------
+    received : Doses
+        On bare skin.
+    melanin, mmd, med
+        As in `history.history`.
+    erythema : ErythemaDynamics
+        How the skin burns.
+    days : pair of float
+        First and last.
+    """
+    rows = int(np.clip(np.ceil(ROWS_A_DAY * (days[1] - days[0])), 2, MOST_ROWS))
+    hours = 24.0 * (days[0] + (days[1] - days[0]) * _centres(rows))
+    whole = received.exposures()
+    parts = _centres(COLUMNS)[:, None]
+    shares = Exposures(whole.hours, parts * whole.doses, parts * whole.thickening_doses)
+    times = np.arange(0.0, hours[-1] + STEP, STEP)
+    peeled = peeled_shares(shares, melanin, erythema, times=times, mmd=mmd, med=med)
+    states = states_at(shares, melanin, times=hours, mmd=mmd, med=med)
+    cover, left, loose = (
+        np.stack([np.interp(hours, times, column) for column in told.T], axis=1)
+        for told in _followed(peeled.T)
+    )
+    inside = np.clip(cover, LEAST_SHARE, 1.0 - LEAST_SHARE)
+    threshold = SPREAD.mean - SPREAD.stdev * _normal_quantiles(inside)
+    taken = _taken(states, melanin).T
+    return np.stack([threshold, left * taken, loose], axis=-1).astype(np.float32)
+
+
+def _centres(count: int) -> NDArray[np.float64]:
+    """Places of texels from 0 to 1; the outer ones stand for the ends."""
+    places = (np.arange(count) + 0.5) / count
+    places[0], places[-1] = 0.0, 1.0
+    return places
+
+
+def _followed(peeled: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
+    """Of peeled shares (T, S) at even times: where, how much of it is left, how loose edges are.
+
+    What has peeled heals everywhere at once, not from its edges.
+    """
+    day = round(24.0 / STEP)
+    risen = np.maximum(peeled - np.pad(peeled, ((day, 0), (0, 0)))[: len(peeled)], 0.0)
+    cover, left, loose = (np.zeros_like(peeled) for _ in range(3))
+    where, hanging = np.zeros(peeled.shape[1]), np.zeros(peeled.shape[1])
+    for time, share in enumerate(peeled):
+        where = np.where(share > HEALED * where, np.maximum(where, share), share)
+        some = np.maximum(where, LEAST_SHARE)
+        fresh = np.minimum(LOOSE * risen[time] / some, 1.0) * np.minimum(where / FEW, 1.0)
+        hanging = np.maximum(hanging * np.exp(-STEP / HANGING), fresh)
+        cover[time], left[time], loose[time] = where, np.minimum(share / some, 1.0), hanging
+    return cover, left, loose
+
+
+def _taken(states: NDArray[np.float64], melanin: Kinetics) -> NDArray[np.float64]:
+    """Part of the new melanin that a peeled place loses, of states (..., 4)."""
+    steady = melanin.steady_state()
+    untanned = steady / steady.sum()
+    total = states[..., :3].sum(axis=-1)
+    lost = total - without_peeled(states, untanned, 1.0)[..., :3].sum(axis=-1)
+    return np.clip(lost / np.maximum(total - 1.0, 1e-6), 0.0, 1.0)
+
+
+def _normal_quantiles(shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where a normal distribution has reached shares."""
+    grid = np.concatenate([np.geomspace(LEAST_SHARE, 0.02, 40), np.linspace(0.02, 0.5, 200)[1:]])
+    grid = np.unique(np.concatenate([grid, 1.0 - grid]))
+    return np.interp(shares, grid, [NormalDist().inv_cdf(share) for share in grid])

@@ -1,0 +1,119 @@
+"""Peeling skin, rendered: how much of it is lighter, and by what; off, nothing is left of it."""
+
+import bpy
+import numpy as np
+import pytest
+from artist_skins import mixed, wear
+from scenes import add_camera, apply, of_role, pixels, render, tan_group, tan_object, white_world
+from state import state
+from synthetic import MED, colour_of
+from test_own_colour import nodes_of
+from test_regions import add_region, show_emission_of
+
+from blender_addon import live
+from blender_addon.model.peeling import SPREAD
+from blender_addon.model.tan import peeling_of
+from blender_addon.props import settings_of
+from blender_addon.scene import peeling
+from blender_addon.scene.exr import rounded
+
+DAY, SHARES = 12, (0.2, 0.8, 1.0)
+
+
+def burnt_row(table_path, burn: float = 5.0):
+    """Squares of a metre, of which the first burns too little to peel."""
+    obj = tan_object(table_path, SHARES, dose=burn * MED)
+    settings = obj.skin_tan
+    settings.peeling, settings.first_frame, settings.last_frame = True, 0, 30
+    add_camera((len(SHARES) / 2, 0.5, 5.0), len(SHARES))
+    white_world()
+    return obj
+
+
+def shown(folder, day: int) -> np.ndarray:
+    """Colours of the squares, (squares, pixels, 3)."""
+    bpy.context.scene.frame_set(day)
+    wide = 100
+    picture = render(folder / "row.exr", width=wide * len(SHARES), height=wide)
+    return np.stack([own.reshape(-1, 3) for own in np.split(picture, len(SHARES), axis=1)])
+
+
+def test_as_much_is_lighter_as_the_image_says_by_what_it_says(tmp_path, table_path):
+    """Where too little burnt, all is as without; flakes are gone by then."""
+    obj = burnt_row(table_path)
+    apply(obj)
+    show_emission_of(obj, "Colour")
+    seen = shown(tmp_path, DAY)
+    image = peeling_of(settings_of(obj).values())
+    obj.skin_tan.peeling = False
+    apply(obj)
+    without = shown(tmp_path, DAY)
+    assert seen[0] == pytest.approx(without[0], abs=1e-4)
+    row = int((DAY + 0.5) / 30.0 * len(image))
+    for square in (1, 2):
+        threshold, part, _ = image[row, min(int(SHARES[square] * 64), 63)]
+        lighter = seen[square, :, 2] > without[square, :, 2] + 0.004
+        assert lighter.mean() == pytest.approx(1.0 - SPREAD.cdf(threshold), abs=0.07)
+        (whole,) = np.unique(without[square].round(4), axis=0)
+        melanin = -np.log(whole[2] / colour_of(np.array([1.0, 0, 0, 1.0, 1.0]))[2]) / 0.6
+        left = whole[2] * np.exp(0.6 * part * melanin)
+        assert np.quantile(seen[square, :, 2], 0.98) == pytest.approx(left, abs=0.015)
+
+
+def test_off_leaves_nothing_of_it(table_path):
+    """Also with regions and own colours."""
+    obj = burnt_row(table_path)
+    wear(obj, [mixed("skin")])
+    add_region(obj, "freckles", np.ones(len(SHARES)))
+    obj.skin_tan.own_colour, obj.skin_tan.peeling = True, False
+    apply(obj)
+    plain, images = state(), len(bpy.data.images)
+    obj.skin_tan.peeling = True
+    apply(obj)
+    apply(obj)
+    assert peeling.is_shown(tan_group(obj))
+    obj.skin_tan.peeling = False
+    apply(obj)
+    assert nodes_of(state()) == nodes_of(plain)
+    assert len(bpy.data.images) == images
+
+
+def test_several_masks_views_and_removal_with_it(table_path):
+    """In any order, and Remove Tan leaves no group and no image."""
+    obj = burnt_row(table_path)
+    more = obj.skin_tan.exposures.add()
+    more.own_mask, more.dose = True, 4.0 * MED
+    apply(obj)
+    (link,) = of_role(obj, "state").inputs[0].links
+    assert link.from_node == of_role(obj, "peel")
+    (before,) = link.from_node.inputs["State"].links
+    assert before.from_node == of_role(obj, "basis")
+    bpy.context.scene.skin_tan.view = "NM365"
+    more.own_mask = False
+    apply(obj)
+    assert of_role(obj, "peel").inputs["State"].links[0].from_node == of_role(obj, "states")
+    obj.skin_tan.peeling = False
+    apply(obj)
+    bpy.context.scene.skin_tan.view = "VISIBLE"
+    (link,) = of_role(obj, "state").inputs[0].links
+    assert link.from_node == of_role(obj, "states")
+    obj.skin_tan.peeling = True
+    apply(obj)
+    bpy.ops.skin_tan.remove()
+    assert not bpy.data.images and not bpy.data.node_groups
+
+
+def test_live_changes_it_and_a_saved_file_keeps_it(table_path, tmp_path):
+    obj = burnt_row(table_path)
+    apply(obj)
+    image = of_role(obj, "peel_image").image
+    obj.skin_tan.exposures[0].dose = 4.0 * MED
+    live.show_changes()
+    live.make_exact()
+    assert of_role(obj, "peel_image").image == image
+    expected = peeling_of(settings_of(obj).values())
+    path = str(tmp_path / "peeling.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    shown_again = pixels(of_role(bpy.data.objects["Body"], "peel_image").image)[..., :3]
+    np.testing.assert_array_equal(shown_again, rounded(expected))

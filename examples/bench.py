@@ -18,14 +18,21 @@ import numpy as np
 from blender_addon.model.catalogue import shipped_path
 from blender_addon.model.look import look
 from examples import bench_history, bench_tables
+from examples.bench_lines import milliseconds, report_at_most
+from hylios.adding.redness import erythema
 from hylios.changed_table import changed_table
+from hylios.skin import whole_thickening
 from hylios.skin.biology import Biology
+from hylios.skin.phototypes import phototype
 from hylios.skin.specimen import SPECIMENS
 from hylios.table import minimal_doses, read_table
 from hylios.tanning import PIGMENTATIONS, Exposures, states_at
 from hylios.transport.simulate import spectrum
 
 REPEATS = 5
+REDNESS_REPEATS, REDNESS_LIMIT = 40, 2.0
+"""Years of redness, and milliseconds at most of the processor that it adds to one."""
+
 RAYS = {False: 20_000, True: 1000}
 """Per wavelength, of light as the thesis prints it (True) and in exact equivalents."""
 
@@ -95,6 +102,22 @@ def report_tanning() -> None:
     print(f"  a hundred of them equal to the last bit those made alone: {same}")
 
 
+def report_redness() -> None:
+    """What redness, and a skin all of which thickens with it, add to a year told by the hour."""
+    skin = phototype("II").skin
+    doses = np.random.default_rng(1).uniform(0.3 * skin.med, 2.0 * skin.med, 365)
+    exposures, reddening = Exposures(12 + 24 * np.arange(365), doses), erythema(skin)
+
+    def a_year_of_hours(run: int) -> None:
+        told = skin.history(exposures, 24 * 365, erythema=reddening if run % 2 else None)
+        if run % 2:
+            whole_thickening(told.states)
+
+    spent = np.array(milliseconds(a_year_of_hours, 2 * REDNESS_REPEATS)).reshape(-1, 2)
+    added = (spent[:, 1] - spent[:, 0])[1:]
+    report_at_most("redness, added to a year of daily sun", added.tolist(), "ms", REDNESS_LIMIT)
+
+
 def report_biology() -> None:
     """Processor time of a slider of biology: the changed table while it is dragged, and at rest."""
     table = read_table(shipped_path("III"))
@@ -126,6 +149,7 @@ def main() -> None:
     print(f"{'  the thesis, per core':<58} {THESIS_RAYS_PER_SECOND:>10.4g} rays/s")
 
     report_tanning()
+    report_redness()
     report_biology()
     bench_history.main()
     bench_tables.main()

@@ -260,6 +260,8 @@ class Burns:
 
 def whole_hours(times: NDArray[np.float64]) -> NDArray[np.int_]:
     """The hours (T,), ascending, before and after some times."""
+    if np.all(times == np.floor(times)) and np.all(np.diff(times) > 0.0):
+        return times.astype(int)
     return np.unique(np.concatenate([np.floor(times), np.ceil(times)])).astype(int)
 
 
@@ -267,6 +269,8 @@ def between_hours(
     hours: NDArray[np.int_], values: NDArray[np.float64], times: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Values (T, H) at ascending hours (T,), at times between them (H, N): straight."""
+    if np.array_equal(hours, times):
+        return values.T
     before = np.maximum(np.searchsorted(hours, times, side="right") - 1, 0)
     after = np.minimum(before + 1, len(hours) - 1)
     fraction = ((times - hours[before]) / np.maximum(hours[after] - hours[before], 1))[:, None]
@@ -290,9 +294,13 @@ def _faded(
     np.add.at(amounts, ends[told], left[..., None].astype(doses.dtype) * doses[told, None])
     if count == 1:
         return amounts
-    steps, place = np.unique(np.diff(marks), return_inverse=True)
+    since = np.diff(marks)
+    if since.min() == since.max():
+        steps, place = since[:1], None
+    else:
+        steps, place = np.unique(since, return_inverse=True)
     kept = np.repeat((by_kind ** steps[:, None]).astype(doses.dtype), histories, axis=1)
     # Nothing is left before the first mark, so what it keeps does not matter.
-    decaying = kept[0] if len(kept) == 1 else in_blocks(kept[np.append(0, place)])
+    decaying = kept[0] if place is None else in_blocks(kept[np.append(0, place)])
     faded = accumulated(decaying, in_blocks(amounts.reshape(count, -1)))
     return in_a_row(faded, count).reshape(amounts.shape)

@@ -105,6 +105,19 @@ def test_parts_and_steps():
     assert coarse == pytest.approx(hourly[::6], abs=0.02)
 
 
+def test_a_state_is_the_same_whichever_times_are_told_with_it():
+    exposures = schedule(8)
+
+    def told(times):
+        return states_at(exposures, LOW, times=times, erythema=REDDENING, **SKIN)
+
+    whole = told(np.arange(480.0))
+    assert np.array_equal(told(np.arange(0.0, 480.0, 0.5))[:, ::2], whole)
+    assert np.array_equal(told(np.arange(480.0)[::-1])[:, ::-1], whole)
+    assert np.allclose(told([77.0, 3.0, 3.0]), whole[:, [77, 3, 3]], rtol=1e-12)
+    assert np.allclose(told(24.0 * np.arange(20)), whole[:, ::24], rtol=1e-12)
+
+
 def test_a_later_exposure_changes_nothing_before_it():
     early, both = Exposures([5], [9.0]), Exposures([300, 5], [9.0, 9.0])
     times = np.arange(300)

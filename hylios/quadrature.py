@@ -7,14 +7,13 @@ here are wavelengths and weights that give the right colour for spectra like tho
 it by .02.
 """
 
-import csv
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
 from hylios.errors import require_whole
+from hylios.packaged import numbers_of
 
 FEWEST, MOST = 4, 16
 """Numbers of wavelengths that are to be had."""
@@ -58,8 +57,7 @@ def skin_quadrature(count: int) -> Quadrature:
 
 @cache
 def _shipped() -> dict[int, Quadrature]:
-    text = (files("hylios") / TABLE).read_text(encoding="utf-8")
-    table = np.array(list(csv.reader(text.splitlines()))[1:], dtype=float)
+    _, table = numbers_of("hylios", TABLE)
     made = {}
     for count in range(FEWEST, MOST + 1):
         rows = table[table[:, 0] == count]

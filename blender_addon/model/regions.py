@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.packaged import texts_of
 from hylios.region_colour import colour_factor
 from hylios.skin.biology import Biology
 from hylios.skin.regions import Region, region
@@ -136,8 +137,4 @@ _NUMBERS = ("least_mm", "largest_mm", "edge_mm", "apart_mm", "held")
 
 
 def _rows() -> list[dict[str, str]]:
-    text = Path(__file__).with_name("spots.csv").read_text(encoding="utf-8")
-    titles, *lines = [
-        line.split(",") for line in text.splitlines() if not line.startswith("#") and line
-    ]
-    return [dict(zip(titles, line, strict=True)) for line in lines]
+    return list(texts_of(__package__ or "", "spots.csv"))

@@ -99,13 +99,22 @@ def of_blisters(settings: TanSettings) -> tuple[str, ...]:
     InputError
         If a setting is out of range or the table cannot be used.
     """
-    path, stamp = settings.table, catalogue.stamp(settings.table)
+    result = _of_blisters(settings, catalogue.stamp(settings.table))
+    if isinstance(result, str):
+        raise InputError(result)
+    return result
+
+
+@functools.lru_cache(maxsize=16)
+def _of_blisters(settings: TanSettings, stamp: tuple[int, int]) -> tuple[str, ...] | str:
+    """The lines, or why there are none, as in `_of_dose`."""
+    path = settings.table
     minimal = settings.minimal_doses(catalogue.provenance(path))
     by_day = np.zeros(int(LAST_DAY_LIMIT) + 3)
     for exposure in settings.exposures:
         received = _received(exposure, path, stamp, settings.own_doses)
         if isinstance(received, str):
-            raise InputError(received)
+            return received
         days = (received.hours // 24).astype(int)
         np.add.at(by_day, np.minimum(days, by_day.size - 1), received.thickening / minimal.med)
     blistering = np.flatnonzero(by_day > BLISTERING * (1.0 + 1e-9))

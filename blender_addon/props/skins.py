@@ -8,7 +8,7 @@ import bpy
 
 from hylios.errors import InputError
 
-from ..model.catalogue import FILE, SHIPPED, TYPES, ShippedTable, shipped_path
+from ..model.catalogue import FILE, SHIPPED, TYPES, ShippedTable, shipped_path, stamp
 
 SKIN_LABELS = {
     "I": "Type I, very light",
@@ -68,11 +68,7 @@ def table_file(skin: str, table_path: str) -> Path:
     if not table_path:
         raise InputError("No table is set: choose the path of a skin table (an EXR file).")
     path = Path(bpy.path.abspath(table_path))
-    try:
-        path.stat()
-    except (OSError, ValueError) as error:  # a name may hold what no file's can
-        why = getattr(error, "strerror", None) or error
-        raise InputError(f"the table {table_path} cannot be read: {why}.") from error
+    stamp(path)
     return path
 
 

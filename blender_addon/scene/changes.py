@@ -74,6 +74,14 @@ class Changes:
             self.on_failure(owner.pop, key, None)
         owner[key] = value
 
+    def pop_key(self, owner: Any, key: str) -> Any:
+        """Remove a custom property, and return what it was; None where there is none."""
+        former = owner.get(key)
+        if key in owner:
+            self.on_failure(owner.__setitem__, key, former)
+            del owner[key]
+        return former
+
     def may_add_to(self, collection: Any) -> None:
         """Take out of a collection again what is added to it from now on."""
         present = {member.as_pointer() for member in collection}

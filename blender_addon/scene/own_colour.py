@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from . import images, nodes
+from . import images, nodes, replaced
 from .changes import Changes
-from .plan import ROLE_KEY, Link, Role, math_role, vector_role
+from .plan import Link, Role, math_role, vector_role
 from .recolour import PAINTED_COLOUR, SHARE_OF_PAINTED
 
 LEAST = 0.01
@@ -153,11 +153,7 @@ def _add(group: Any, changes: Changes) -> None:
             )
             if kind == "NodeSocketFloat":
                 socket.min_value, socket.max_value, socket.subtype = 0.0, 1.0, "FACTOR"
-    for source, _, target, socket in REPLACED:
-        for kept in nodes.of_role(group, target):
-            for former in list(nodes.find_input(kept, socket).links):
-                if former.from_node.get(ROLE_KEY) == source:
-                    group.links.remove(former)
+    replaced.unlink(group, REPLACED)
     nodes.complete(group, ROLES, ROLES, LINKS)
 
 
@@ -166,19 +162,11 @@ def _take_out(group: Any, changes: Changes) -> None:
     if not is_shown(group):
         return
     changes.may_relink(group)
-    for source, output, target, socket in REPLACED:
-        for node in nodes.of_role(group, target):
-            end = nodes.find_input(node, socket)
-            if any(former.from_node.get(ROLE_KEY) in ROLES for former in end.links):
-                for start in nodes.of_role(group, source):
-                    group.links.new(nodes.find_output(start, output), end)
+    replaced.link_again(group, REPLACED, ROLES)
     going = [node for role in ROLES for node in nodes.of_role(group, role)]
     changes.at_the_end(partial(_remove, group, going))
-    key = nodes.IMAGE_KEYS["own_image"]
-    if key in group:
-        image = group[key]
-        changes.on_failure(group.__setitem__, key, image)
-        del group[key]
+    image = changes.pop_key(group, nodes.IMAGE_KEYS["own_image"])
+    if image is not None:
         changes.at_the_end(partial(images.remove_if_unused, image))
 
 

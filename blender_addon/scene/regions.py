@@ -13,12 +13,12 @@ from typing import Any
 
 import bpy
 
-from . import mask_nodes, nodes, region_nodes
+from . import mask_nodes, nodes, region_nodes, replaced
 from .changes import Changes
 from .detail import millimetres
 from .masks import Mask
 from .ownership import is_local
-from .plan import ROLE_KEY, Link, Role, math_role, vector_role
+from .plan import Link, Role, math_role, vector_role
 from .region_nodes import Region
 
 ROLES = {
@@ -156,12 +156,7 @@ def take_out(group: Any, changes: Changes) -> None:
         return
     changes.may_relink(group)
     ours = {role: list(nodes.of_role(group, role)) for role in ROLES}
-    for source, output, target, socket in REPLACED:
-        for node in nodes.of_role(group, target):
-            end = nodes.find_input(node, socket)
-            if any(former.from_node.get(ROLE_KEY) in ROLES for former in end.links):
-                for start in nodes.of_role(group, source):
-                    group.links.new(nodes.find_output(start, output), end)
+    replaced.link_again(group, REPLACED, ROLES)
     changes.at_the_end(partial(_remove_nodes, group, [n for made in ours.values() for n in made]))
 
 
@@ -194,13 +189,9 @@ def _added(group: Any, tree: Any, changes: Changes) -> Any:
     return node
 
 
-def _link(group: Any, made: Collection[str], replaced: Iterable[Link]) -> None:
+def _link(group: Any, made: Collection[str], former: Iterable[Link]) -> None:
     """Link new nodes in place of what they replace."""
-    for source, _, target, socket in replaced:
-        for kept in nodes.of_role(group, target):
-            for former in list(nodes.find_input(kept, socket).links):
-                if former.from_node.get(ROLE_KEY) == source:
-                    group.links.remove(former)
+    replaced.unlink(group, former)
     nodes.link(group, made, LINKS)
 
 

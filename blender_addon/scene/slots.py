@@ -6,6 +6,7 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
 from .changes import Changes
 from .masks import current_depsgraph, evaluated_mesh
@@ -115,34 +116,30 @@ def is_skin_by_name(name: str) -> bool | None:
 
 def faces_of_slots(obj: bpy.types.Object) -> list[int]:
     """How many faces show each slot of a mesh object."""
-    polygons: Any = cast(bpy.types.Mesh, obj.data).polygons
-    indices = np.zeros(len(polygons), np.int32)
-    polygons.foreach_get("material_index", indices)
-    last = max(len(obj.material_slots) - 1, 0)
-    return np.bincount(indices.clip(0, last), minlength=last + 1).tolist()
+    return _of_slots(obj)
 
 
 def areas(obj: bpy.types.Object) -> dict[bpy.types.Material, float]:
     """What area of a mesh object shows each material, in its own units."""
-    mesh = cast(Any, obj.data)
-    indices = np.zeros(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("material_index", indices)
+    return _of_materials(obj, _of_slots(obj, areas_of_faces(cast(Any, obj.data))))
+
+
+def _of_slots(obj: bpy.types.Object, of_faces: NDArray[np.float32] | None = None) -> list[Any]:
+    """Sums over the faces that show each slot, of a number of every face or of ones."""
+    polygons: Any = cast(bpy.types.Mesh, obj.data).polygons
+    indices = np.zeros(len(polygons), np.int32)
+    polygons.foreach_get("material_index", indices)
     last = max(len(obj.material_slots) - 1, 0)
-    sums = np.bincount(indices.clip(0, last), areas_of_faces(mesh), minlength=last + 1)
-    shown = dict.fromkeys(materials_of(obj), 0.0)
-    for slot, area in zip(obj.material_slots, sums.tolist(), strict=False):
-        if slot.material is not None:
-            shown[slot.material] += area
-    return shown
+    return np.bincount(indices.clip(0, last), of_faces, minlength=last + 1).tolist()
 
 
-def _faces(obj: bpy.types.Object) -> dict[bpy.types.Material, int]:
-    """How many faces show each material."""
-    counts = dict.fromkeys(materials_of(obj), 0)
-    for slot, number in zip(obj.material_slots, faces_of_slots(obj), strict=False):
+def _of_materials(obj: bpy.types.Object, of_slots: list[Any]) -> dict[bpy.types.Material, Any]:
+    """Sums over the slots that hold each material."""
+    sums = dict.fromkeys(materials_of(obj), 0)
+    for slot, number in zip(obj.material_slots, of_slots, strict=False):
         if slot.material is not None:
-            counts[slot.material] += number
-    return counts
+            sums[slot.material] += number
+    return sums
 
 
 def ticks(
@@ -175,7 +172,7 @@ def _guess(
     obj: bpy.types.Object, materials: list[bpy.types.Material], *, is_first: bool
 ) -> list[bpy.types.Material]:
     """Those of some materials of an object that are skin; at first there must be one."""
-    counts = _faces(obj)
+    counts = _of_materials(obj, faces_of_slots(obj))
     if any(counts.values()):
         materials = [material for material in materials if counts[material]]
     names = {material: is_skin_by_name(material.name) for material in materials}

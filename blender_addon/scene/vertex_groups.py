@@ -130,8 +130,7 @@ def remove_own(obj: bpy.types.Object, changes: Changes) -> None:
     if left:
         changes.set_key(mesh, COPIES_KEY, json.dumps(left))
     else:
-        changes.on_failure(mesh.__setitem__, COPIES_KEY, mesh[COPIES_KEY])
-        del mesh[COPIES_KEY]
+        changes.pop_key(mesh, COPIES_KEY)
 
 
 def mask_names(obj: bpy.types.Object) -> set[str]:

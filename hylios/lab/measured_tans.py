@@ -3,11 +3,11 @@
 `measured_tans.csv` beside this file has the rows with their sources. numpy and stdlib only.
 """
 
-import csv
 from dataclasses import dataclass
-from importlib.resources import files
 
 import numpy as np
+
+from hylios.packaged import texts_of
 
 ESTIMATES = ("C", "E", "L")
 """Qualities that are no measurement whose source was read."""
@@ -76,8 +76,6 @@ class Row:
 
 def rows() -> tuple[Row, ...]:
     """All rows, in the file's order."""
-    text = (files("hylios.lab") / "measured_tans.csv").read_text(encoding="utf-8")
-    lines = [line for line in text.splitlines() if not line.startswith("#")]
     return tuple(
         Row(
             **{name: own[name] for name in ("subject", "case", "condition", "measured", "unit")},
@@ -85,7 +83,7 @@ def rows() -> tuple[Row, ...]:
             high=float(own["high"] or "inf"),
             **{name: own[name] for name in ("quality", "source", "remark")},
         )
-        for own in csv.DictReader(lines)
+        for own in texts_of("hylios.lab", "measured_tans.csv")
     )
 
 

@@ -3,10 +3,8 @@
 Run it as `python -m hylios.lab.site_fits`. What was measured is in `body_sites.csv`.
 """
 
-import csv
 import sys
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +16,7 @@ from hylios.errors import InputError
 from hylios.files import written_beside
 from hylios.lab.colour import difference, linear_rec709
 from hylios.lab.fit import fit_spectrum
+from hylios.packaged import texts_of
 from hylios.skin import regions
 from hylios.skin.phototypes import named_specimen
 from hylios.skin.regions import MOST_BELOW, Region
@@ -63,8 +62,6 @@ class Measured:
 
 def measured() -> list[Measured]:
     """All sites of all groups, inner arms among them."""
-    text = (files("hylios.lab") / "body_sites.csv").read_text(encoding="utf-8")
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
     return [
         Measured(
             row["group"],
@@ -73,7 +70,7 @@ def measured() -> list[Measured]:
             np.array([float(name[1:]) for name in row if name.startswith("R")]),
             np.array([float(value) for name, value in row.items() if name.startswith("R")]),
         )
-        for row in rows
+        for row in texts_of("hylios.lab", "body_sites.csv")
     ]
 
 

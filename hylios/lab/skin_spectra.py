@@ -5,13 +5,12 @@ are those of spectra of 300 random skins, each divided by its mean, in which dar
 much as light ones; they come from `python -m examples.simplifications.quadrature`.
 """
 
-import csv
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.packaged import numbers_of
 
 TABLE = "skin_spectra.csv"
 
@@ -36,8 +35,7 @@ def components(reflectances: np.ndarray, count: int = COMPONENTS) -> np.ndarray:
 @cache
 def shipped_components() -> tuple[np.ndarray, np.ndarray]:
     """Wavelengths (N,) in nm, 360 to 780 in steps of 5, and the shipped components (N, K)."""
-    text = (files("hylios.lab") / TABLE).read_text(encoding="utf-8")
-    table = np.array(list(csv.reader(text.splitlines()))[1:], dtype=float)
+    _, table = numbers_of("hylios.lab", TABLE)
     return table[:, 0], table[:, 1:]
 
 

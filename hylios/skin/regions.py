@@ -9,17 +9,16 @@ all: what does not tan does not redden. Regions that lie over each other multipl
 `sites.csv` has what `hylios.lab.site_fits` fitted to people, `regions.csv` the rest and the marks.
 """
 
-import csv
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.resources import files
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, require_range
+from hylios.packaged import texts_of
 from hylios.skin.physiology import MOST_EPIDERMAL_MELANIN
 from hylios.skin.skin import MOST_BLOOD, flushed
 from hylios.skin.specimen import EPIDERMIS, Specimen, require_specimen
@@ -261,7 +260,7 @@ def sites() -> tuple[Site, ...]:
             subjects=int(row["subjects"]),
             **{name: float(value) for name, value in row.items() if name not in _TEXTS},
         )
-        for row in _table("sites.csv")
+        for row in texts_of("hylios.skin", "sites.csv")
     )
 
 
@@ -270,12 +269,7 @@ _TEXTS = ("group", "site", "subjects")
 
 @cache
 def _rows() -> dict[str, dict[str, str]]:
-    return {row["region"]: row for row in _table("regions.csv")}
-
-
-def _table(name: str) -> Iterator[dict[str, str]]:
-    text = (files("hylios.skin") / name).read_text(encoding="utf-8")
-    return csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    return {row["region"]: row for row in texts_of("hylios.skin", "regions.csv")}
 
 
 REGIONS: tuple[str, ...] = tuple(_rows())

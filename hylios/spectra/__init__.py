@@ -4,7 +4,6 @@
 where it is an estimate. Any spectrum can be replaced by a file of the user's own.
 """
 
-import csv
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from types import MappingProxyType
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.packaged import numbers_of
 from hylios.readers.spectrum import read_values
 
 
@@ -79,10 +79,9 @@ Spectra = Mapping[str, Spectrum]
 @cache
 def published_spectra() -> Spectra:
     """The project's own spectra by name, from the literature."""
-    folder = files(__name__)
-    sources = tomllib.loads((folder / "sources.toml").read_text(encoding="utf-8"))
-    rows = list(csv.reader((folder / "spectra.csv").read_text(encoding="utf-8").splitlines()))
-    columns = dict(zip(rows[0], np.array(rows[1:], dtype=float).T, strict=True))
+    sources = tomllib.loads((files(__name__) / "sources.toml").read_text(encoding="utf-8"))
+    names, table = numbers_of(__name__, "spectra.csv")
+    columns = dict(zip(names, table.T, strict=True))
     wavelengths = columns.pop("wavelength_nm")
     return MappingProxyType(
         {

@@ -27,15 +27,14 @@ Nothing was fitted, and `tests/hylios/sun/test_sky.py` holds the errors.
 
 All of it is for a sky without clouds."""
 
-import csv
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from importlib.resources import files
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hylios.errors import require_range
+from hylios.packaged import numbers_of
 from hylios.sun.atmosphere import Depths, Passage, passage
 
 MOLECULES_PER_DOBSON = 2.6868e16  # in 1/cm^2: Loschmidt's number times 1e-3 cm
@@ -93,10 +92,7 @@ class Sunlight:
 @cache
 def _columns() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Wavelengths in nm, extraterrestrial irradiance, ozone's cross section in cm^2."""
-    text = files("hylios.sun").joinpath("sky.csv").read_text(encoding="utf-8")
-    rows = csv.reader(line for line in text.splitlines() if not line.startswith("#"))
-    next(rows)
-    wavelengths, irradiance, section = np.array(list(rows), dtype=float).T
+    wavelengths, irradiance, section = numbers_of("hylios.sun", "sky.csv")[1].T
     return wavelengths, irradiance, 1e-20 * section
 
 

@@ -8,7 +8,6 @@ than that, in long melanosomes that absorb little up to 0.1 %. The shapes go bey
 axes within physiology (`hylios.skin.physiology`).
 """
 
-import csv
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from hylios.errors import require_range
 from hylios.lagrange import lagrange
+from hylios.packaged import numbers_of
 from hylios.tissue import Layer
 
 TABLE = Path(__file__).with_name("melanosome_survival.csv")
@@ -92,8 +92,7 @@ def _interpolating(aspect: float, ratio: float) -> tuple[np.ndarray, np.ndarray]
 @lru_cache(maxsize=1)
 def _table() -> tuple[np.ndarray, np.ndarray]:
     """Lengths in semi-minor axes, and their weights, (ASPECTS, RATIOS, POINTS) each."""
-    with TABLE.open(encoding="utf-8", newline="") as file:
-        rows = np.array(list(csv.reader(file))[1:], dtype=float)
+    _, rows = numbers_of("hylios.tissue", TABLE.name)
     lengths, weights = np.split(rows[:, 2:], 2, axis=1)
     weights /= weights.sum(axis=1, keepdims=True)  # printed with few digits
     shape = (ASPECTS, RATIOS, POINTS)

@@ -15,18 +15,17 @@ two more readings. Not established: whether the paper counts, as later versions 
 a baseline absorption of all tissue.
 """
 
-import csv
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache
-from importlib.resources import files
 from types import MappingProxyType
 
 import numpy as np
 from numba import njit
 
 from hylios.errors import InputError, require_range, require_whole
+from hylios.packaged import numbers_of
 from hylios.spectra import published_spectra
 from hylios.tissue.absorbers import BETA_CAROTENE_WEIGHT, BILIRUBIN_WEIGHT, HEMOGLOBIN_WEIGHT
 from hylios.transport.compiling import kernel
@@ -125,10 +124,8 @@ def goniometry() -> Mapping[str, np.ndarray]:
     `angle_deg`, and for each tissue and wavelength in nm the share in % of the transmitted light
     that leaves within that angle of its direction.
     """
-    text = (files("hylios.lab.predecessors") / "bruls_goniometry.csv").read_text(encoding="utf-8")
-    rows = list(csv.reader(row for row in text.splitlines() if not row.startswith("#")))
-    columns = np.array(rows[1:], dtype=float).T
-    return MappingProxyType(dict(zip(rows[0], columns, strict=True)))
+    names, table = numbers_of("hylios.lab.predecessors", "bruls_goniometry.csv")
+    return MappingProxyType(dict(zip(names, table.T, strict=True)))
 
 
 TABLE_SIZE = 1001

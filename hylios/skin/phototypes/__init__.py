@@ -4,7 +4,6 @@
 reflects, and `fitted.toml` is what `hylios.lab.phototype_fits` made of both. numpy only.
 """
 
-import csv
 import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from hylios.errors import InputError
+from hylios.packaged import texts_of
 from hylios.skin.skin import Skin
 from hylios.skin.specimen import EPIDERMIS, SPECIMENS, Specimen, specimen_of
 
@@ -143,8 +143,7 @@ def start(name: str) -> Specimen:
 
 def people(name: str) -> People:
     """The people whose inner arms stand for a type."""
-    text = (files(__name__) / "inner_arm.csv").read_text(encoding="utf-8")
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    rows = texts_of(__name__, "inner_arm.csv")
     (row,) = (people for people in rows if people["class"] == _read("types.toml")[name]["people"])
     columns = [column for column in row if column.startswith("R")]
     return People(

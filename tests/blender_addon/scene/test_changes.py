@@ -2,7 +2,7 @@
 
 import inspect
 import sys
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import bpy
@@ -31,6 +31,11 @@ class StoppedError(Exception):
     """What a test raises."""
 
 
+@cache
+def is_of_rooms(filename: str) -> bool:
+    return any(room in filename.replace("\\", "/") for room in ROOMS)
+
+
 def is_in_exit(frame) -> bool:
     """Whether changes are undone or ended here: that is not interrupted."""
     while frame is not None and frame.f_code.co_name != "__exit__":
@@ -45,22 +50,21 @@ def stopped_at(number: int, obj, function=None) -> bool:
     source, first_line = inspect.getsourcelines(code)
     with_line = first_line + source.index("    with Changes() as changes:\n")
 
-    def trace(frame, event, argument):
+    def called(frame, event, argument):
+        return line if is_of_rooms(frame.f_code.co_filename) and not is_in_exit(frame) else None
+
+    def line(frame, event, argument):
         nonlocal count
-        path = frame.f_code.co_filename.replace("\\", "/")
-        if not any(room in path for room in ROOMS) or is_in_exit(frame):
-            return None
         # Python comes back to the line of the `with` on its way to `__exit__`.
-        is_with = frame.f_code is code and frame.f_lineno == with_line
-        if event == "line" and not is_with:
+        if event == "line" and not (frame.f_code is code and frame.f_lineno == with_line):
             count += 1
             if count == number:
                 sys.settrace(None)
                 raise StoppedError
-        return trace
+        return line
 
     former = sys.gettrace()
-    sys.settrace(trace)
+    sys.settrace(called)
     try:
         function(obj)
     except StoppedError:

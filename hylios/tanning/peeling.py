@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from hylios.errors import InputError, as_numbers, require_range
 from hylios.tanning.erythema import Burns, ErythemaDynamics, between_hours
-from hylios.tanning.exposures import LONGEST_HOURS, Exposures
+from hylios.tanning.exposures import Exposures
 from hylios.tanning.kinetics import Kinetics
-from hylios.tanning.simulation import CELLS_TOGETHER, states_at
+from hylios.tanning.simulation import CELLS_TOGETHER, require_times, states_at
 
 TAKEN = (0.0, 0.5, 1.0)
 """Shares of the new melanin of basale, spinosum and granulosum that peel off. ESTIMATE"""
@@ -104,9 +104,7 @@ def peeled_shares(
     """
     if not isinstance(peeling, Peeling | None):
         raise InputError(f"peeling is {str(peeling)[:60]!r}; expected a Peeling.")
-    hours = as_numbers("times", times)
-    if hours.ndim != 1 or not np.all((hours >= 0.0) & (hours <= LONGEST_HOURS)):
-        raise InputError(f"times are {str(times)[:60]}; allowed is a list of 0 to {LONGEST_HOURS}.")
+    hours = require_times(times)
     burns = Burns.of(exposures, erythema, med).until(int(hours.max(initial=0.0)))
     shape = exposures.doses.shape[:-1]
     tan = states_at(exposures, melanin, times=burns.hours, mmd=mmd, med=med)

@@ -17,7 +17,7 @@ from hylios.tanning.erythema import Burns
 from hylios.tanning.exposures import LONGEST_HOURS, Exposures, require_exposures
 from hylios.tanning.kinetics import Kinetics
 from hylios.tanning.recurrence import accumulated, in_a_row, in_blocks, previous
-from hylios.tanning.simulation import hill, make_relative
+from hylios.tanning.simulation import by_hour, hill, make_relative
 
 Dynamics = TypeVar("Dynamics", bound=Kinetics | ThicknessDynamics)
 
@@ -72,14 +72,10 @@ def retained(
     require_range("MMD", mmd, 1e-6, 1e6, "SED")
     require_range("MED", med, 1e-6, 1e6, "SED")
     require_range("last hour", hours, 0, LONGEST_HOURS)
-    inside = exposures.hours <= hours
-    when = exposures.hours[inside]
 
     def followed(doses: NDArray[np.float64], dynamics: Dynamics) -> Retained[Dynamics]:
-        kinds = int(np.prod(doses.shape[:-1]))
-        received = np.zeros((hours + 1, kinds))
-        np.add.at(received, when, doses.reshape(kinds, inside.size)[:, inside].T)
-        energy = accumulated(dynamics.energy_decay, in_blocks(received))
+        received = by_hour(exposures.hours, doses, slice(None), hours + 1)
+        energy = accumulated(dynamics.energy_decay, received)
         return Retained(in_a_row(energy, hours + 1).T, dynamics)
 
     return (

@@ -134,7 +134,7 @@ def states_at(
     """
     require_exposures(exposures)
     _require_minimal_doses(mmd, med)
-    step, hours = require_whole("step in hours", step, 1, LONGEST_STEP), _checked_times(times)
+    step, hours = require_whole("step in hours", step, 1, LONGEST_STEP), require_times(times)
     thickness = thickness or ThicknessDynamics()
     marks = _marks(hours, step)
     numbers = 4 if erythema is None else 5
@@ -262,8 +262,8 @@ def _course(
 ) -> _Course:
     """Some histories, simulated."""
     hours = 1 + marks * step
-    received = _by_hour(exposures.hours, exposures.doses, some, hours)
-    thickening = _by_hour(exposures.hours, exposures.thickening_doses, some, hours)
+    received = by_hour(exposures.hours, exposures.doses, some, hours)
+    thickening = by_hour(exposures.hours, exposures.thickening_doses, some, hours)
     since = None if step == 1 else np.full((1, 1, 1), float(step))
     curves = (
         *melanin_departures(_response(received / mmd, melanin, step), melanin, since),
@@ -298,7 +298,14 @@ def _check_step(step: float) -> None:
     )
 
 
-def _checked_times(times: ArrayLike) -> np.ndarray:
+def require_times(times: ArrayLike) -> NDArray[np.float64]:
+    """Times (T,) in hours.
+
+    Raises
+    ------
+    InputError
+        If they are no list of numbers, or one is out of range.
+    """
     hours = as_numbers("times", times)
     if hours.ndim != 1 or not np.all((hours >= 0.0) & (hours <= LONGEST_HOURS)):
         raise InputError(
@@ -307,8 +314,8 @@ def _checked_times(times: ArrayLike) -> np.ndarray:
     return hours
 
 
-def _by_hour(when: np.ndarray, doses, some: slice, hours: int) -> np.ndarray:
-    """Doses of some histories by the hour, those before the given one."""
+def by_hour(when: np.ndarray, doses: np.ndarray, some: slice, hours: int) -> np.ndarray:
+    """Doses (..., E) of some histories by the hour, those before the given one, in blocks."""
     inside = when < hours
     flat = doses.reshape(int(np.prod(doses.shape[:-1])), when.size)[some, inside]
     received = no_steps(hours, len(flat))

@@ -1,4 +1,4 @@
-"""The model and its tests can be imported where there is no Blender; `conftest` sees to the rest."""
+"""The model and its tests are imported where there is no Blender; `conftest` sees to the rest."""
 
 import subprocess
 import sys

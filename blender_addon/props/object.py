@@ -45,9 +45,9 @@ from .region import SkinTanRegion, is_shown
 from .response import (
     KINETICS,
     NAMES,
-    NOT_KEPT,
     keep_kinetics,
     keep_redness,
+    kept_property,
     kinetics_of,
     redness_of,
 )
@@ -129,14 +129,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         get=kinetics_of,
         set=keep_kinetics,
     )
-    kinetics_kept: IntProperty(
-        name="Tan, Kept",
-        description="Number of what was chosen or applied",
-        default=NOT_KEPT,
-        min=NOT_KEPT,
-        max=len(NAMES) - 1,
-        options={"HIDDEN"},
-    )
+    kinetics_kept: kept_property("Tan, Kept", len(NAMES) - 1)
     redness: BoolProperty(
         name="Sunburn",
         description="Skin reddens for hours to days after much sun. An estimate, fitted to what "
@@ -144,14 +137,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         get=redness_of,
         set=keep_redness,
     )
-    redness_kept: IntProperty(
-        name="Sunburn, Kept",
-        description="What was chosen or applied",
-        default=NOT_KEPT,
-        min=NOT_KEPT,
-        max=1,
-        options={"HIDDEN"},
-    )
+    redness_kept: kept_property("Sunburn, Kept", 1)
     peeling: BoolProperty(
         name="Peeling",
         description="Four to eight days after 3 burn doses and more, skin peels in patches with "

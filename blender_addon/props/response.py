@@ -7,6 +7,8 @@ shows; what nobody has chosen or applied goes by whether the object has a tan.
 
 from typing import Any
 
+from bpy.props import IntProperty
+
 from ..scene.slots import has_tan
 
 KINETICS = (
@@ -31,14 +33,12 @@ NOT_KEPT = -1
 
 def kinetics_of(settings: Any) -> int:
     """Number of the kinetics that count."""
-    kept = settings.kinetics_kept
-    return kept if kept != NOT_KEPT else NAMES.index("THESIS" if _is_former(settings) else NAMES[0])
+    return _told(settings, settings.kinetics_kept, of_new=0, of_former=NAMES.index("THESIS"))
 
 
 def redness_of(settings: Any) -> bool:
     """Whether skin reddens."""
-    kept = settings.redness_kept
-    return bool(kept) if kept != NOT_KEPT else not _is_former(settings)
+    return bool(_told(settings, settings.redness_kept, of_new=1, of_former=0))
 
 
 def keep_kinetics(settings: Any, number: int) -> None:
@@ -49,6 +49,20 @@ def keep_redness(settings: Any, is_on: bool) -> None:
     settings.redness_kept = int(is_on)
 
 
-def _is_former(settings: Any) -> bool:
-    """Whether an object without a choice has a tan, so that it is from before there was one."""
-    return has_tan(settings.id_data)
+def kept_property(name: str, most: int) -> Any:
+    """Declare what is kept of a choice: its number, up to the largest."""
+    return IntProperty(
+        name=name,
+        description="Number of what was chosen or applied",
+        default=NOT_KEPT,
+        min=NOT_KEPT,
+        max=most,
+        options={"HIDDEN"},
+    )
+
+
+def _told(settings: Any, kept: int, *, of_new: int, of_former: int) -> int:
+    """What is kept; without, a tan that is there is from before there was a choice."""
+    if kept != NOT_KEPT:
+        return kept
+    return of_former if has_tan(settings.id_data) else of_new

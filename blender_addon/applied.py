@@ -26,7 +26,7 @@ BIOLOGY = "biology"
 SKIN = frozenset("skin table_path kinetics".split())
 """Properties that say whose look it is, and in which tans it is at all."""
 
-LATER = frozenset(["peeling"])
+LATER = frozenset("peeling altitude cloud ground through depth".split())
 """Properties that came after files held such texts: one that nobody has set is not told, so that a
 tan of before counts as shown."""
 

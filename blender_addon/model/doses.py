@@ -12,15 +12,20 @@ import numpy as np
 from hylios.errors import InputError, require_range, require_whole
 from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import Doses, joined, of_sed, of_sun, of_uv_index
-from hylios.sun.protection import BARE, Protection, sunscreen
+from hylios.sun.protection import BARE, Protection, layered, sunscreen, water, window
+from hylios.sun.sky import ClearSky
+from hylios.sun.surroundings import ground_albedo
 from hylios.table.provenance import absorptance
 
 from .settings import (
+    AIR,
     DOSE_LIMIT,
     DURATION_LIMIT,
     FACTOR_LIMIT,
     LAST_DAY_LIMIT,
     MULTIPLE_LIMIT,
+    USUAL_GROUND,
+    WATER,
     Exposure,
 )
 
@@ -64,11 +69,15 @@ def of_exposure(exposure: Exposure, mmd: float, provenance: Mapping[str, Any]) -
         return of_uv_index(hour, exposure.uv_index, duration, over)
     if exposure.unit == "SUN":
         absorbed = absorptance(provenance)
+        over = _beneath(exposure, over)
+        cloud = require_range("cloud cover", exposure.cloud, 0.0, 100.0, "percent")
         from_midnight = _of_a_day(
             require_date(exposure.month, exposure.day_of_month),
             exposure.from_hour,
             exposure.to_hour,
             exposure.latitude,
+            _sky(exposure),
+            0.01 * cloud,
             (absorbed.wavelengths.tobytes(), absorbed.values.tobytes()),
             (over.wavelengths.tobytes(), over.transmittance.tobytes()),
         )
@@ -84,6 +93,8 @@ def _of_a_day(
     first: float,
     last: float,
     latitude: float,
+    sky: ClearSky,
+    cloud: float,
     absorbed: tuple[bytes, bytes],
     over: tuple[bytes, bytes],
 ) -> Doses:
@@ -92,9 +103,25 @@ def _of_a_day(
     The curves of the absorptance and the protection are bytes, which a cache can compare.
     """
     skin = Absorptance(*map(np.frombuffer, absorbed))
-    return of_sun(
-        day, first, last, latitude, skin, protection=Protection(*map(np.frombuffer, over))
-    )
+    protection = Protection(*map(np.frombuffer, over))
+    return of_sun(day, first, last, latitude, skin, sky=sky, cloud=cloud, protection=protection)
+
+
+def _sky(exposure: Exposure) -> ClearSky:
+    """The air over an exposure's place, and its ground."""
+    sky = ClearSky(altitude=exposure.altitude)
+    if exposure.ground == USUAL_GROUND:
+        return sky
+    return replace(sky, albedo=ground_albedo(exposure.ground.lower()))
+
+
+def _beneath(exposure: Exposure, over: Protection) -> Protection:
+    """What lies over the skin, with a pane or water that the sun goes through."""
+    if exposure.through == AIR:
+        return over
+    if exposure.through == WATER:
+        return layered([water(exposure.depth), over])
+    return layered([window(exposure.through.lower()), over])
 
 
 def begin(exposure: Exposure) -> int:

@@ -19,6 +19,8 @@ from hylios.readers.layout import laid_out
 from hylios.readers.quantities import Quantity
 from hylios.readers.table import Table, columns_of, table_of
 from hylios.readers.text import lines_of, name_of
+from hylios.sun.protection import DEEPEST_WATER, GLASS
+from hylios.sun.surroundings import GROUNDS
 
 from .doses import require_date, require_hours
 from .settings import (
@@ -29,6 +31,7 @@ from .settings import (
     MULTIPLE_LIMIT,
     USUAL_DATE,
     USUAL_HOURS,
+    WATER,
 )
 
 TITLES = {
@@ -40,6 +43,9 @@ TITLES = {
     "to_hour": ("to_hour", 0.0, 24.0),
     "spf": ("spf", 1.0, FACTOR_LIMIT),
     "mg_cm2": ("sunscreen_amount", 0.0, 20.0),
+    "altitude_m": ("altitude", -500.0, 9000.0),
+    "cloud_percent": ("cloud", 0.0, 100.0),
+    "depth_m": ("depth", 0.0, DEEPEST_WATER),
 }
 """Columns of numbers that a row may leave empty: setting, least and largest value."""
 
@@ -50,9 +56,18 @@ AMOUNTS = {
 }
 """Settings that hold the amount, and its largest value, by unit; sun of a date has none."""
 
+CHOICES = {
+    "ground": {name: name.upper() for name in ("usual", *GROUNDS)},
+    "through": {name: name.upper() for name in ("air", *GLASS, "water")},
+}
+"""Columns of one of some words that a row may leave empty, which are settings too."""
+
 SETTINGS_OF_UNIT = {
     "UV_INDEX": ("hours",),
-    "SUN": ("latitude", "month", "day_of_month", "from_hour", "to_hour"),
+    "SUN": (
+        *("latitude", "month", "day_of_month", "from_hour", "to_hour"),
+        *("altitude_m", "cloud_percent"),
+    ),
 }
 """Columns that count for a unit only."""
 
@@ -70,7 +85,10 @@ UNITS = {
 ON = {"": True, "yes": True, "on": True, "true": True, "1": True, "x": True}
 OFF = {"no": False, "off": False, "false": False, "0": False}
 
-HEADER = ("day", "amount", "unit", *TITLES, "on", "name")
+HEADER = ("day", "amount", "unit", *TITLES, *CHOICES, "on", "name")
+LATER = ("altitude_m", "cloud_percent", "depth_m", *CHOICES)
+FORMER = tuple(title for title in HEADER if title not in LATER)
+"""Columns of a file, and those of a version that knew fewer."""
 
 DAY = Quantity("day", ("day",), is_exact=True)
 OPTIONAL = tuple(Quantity(title, is_text=True, is_exact=True) for title in HEADER[1:])
@@ -149,7 +167,7 @@ def _own_table(lines: Sequence[str], name: str) -> Table | None:
 
     A name in it may hold what separates cells elsewhere, so its separator is not searched for.
     """
-    if not lines or lines[0].strip() != ",".join(HEADER):
+    if not lines or lines[0].strip() not in (",".join(FORMER), ",".join(HEADER)):
         return None
     try:
         return columns_of(laid_out(lines, ",", [DAY], None), name, (DAY, *OPTIONAL))
@@ -183,6 +201,9 @@ def _settings(table: Table, row: int, given: Mapping[str, Any]) -> dict[str, Any
         if cells.get(title):
             value = _number(where, title, cells[title], least, largest)
             read[setting] = round(value) if title in WHOLE else value
+    for title, allowed in CHOICES.items():
+        if cells.get(title):
+            read[title] = _one_of(where, title, cells[title], allowed)
     if "spf" in read:
         read["sunscreen"] = True
     if not given:
@@ -236,6 +257,9 @@ def _row(exposure: Any) -> list[str]:
     if exposure.sunscreen:
         wanted = (*wanted, "spf", "mg_cm2")
     cells = {"day": _told(exposure.day), "unit": unit}
+    if unit == "SUN":
+        cells |= {title: getattr(exposure, title).lower() for title in CHOICES}
+        wanted = (*wanted, "depth_m") if exposure.through == WATER else wanted
     if unit in AMOUNTS:
         cells["amount"] = _told(getattr(exposure, AMOUNTS[unit][0]))
     for title in wanted:

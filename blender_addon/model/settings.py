@@ -19,6 +19,9 @@ DOSE_LIMIT, MULTIPLE_LIMIT = 1000.0, 100.0
 DURATION_LIMIT, FACTOR_LIMIT = 48.0, 1000.0
 """Most hours under a UV index, and largest SPF, of one exposure."""
 
+USUAL_GROUND, AIR, WATER = "USUAL", "AIR", "WATER"
+"""Ground of which nothing is said; what the sun goes through before it meets the skin."""
+
 USUAL_DATE, USUAL_HOURS = (7, 15), (11.0, 15.0)
 """Month and day, and hours of the day, of sun for which none are given."""
 
@@ -53,6 +56,9 @@ class Exposure:
         Of unit SUN: degrees north, a date and two hours of local solar time.
     sunscreen : bool
         Whether `spf` and `sunscreen_amount`, mg/cm^2, count.
+    altitude, cloud, ground, through, depth
+        Of unit SUN: m over the sea, percent of the sky, names of `GROUNDS` and of `PANES`, WATER or
+        AIR, and m of water.
     """
 
     day: float
@@ -69,6 +75,11 @@ class Exposure:
     sunscreen: bool
     spf: float
     sunscreen_amount: float
+    altitude: float = 0.0
+    cloud: float = 0.0
+    ground: str = USUAL_GROUND
+    through: str = AIR
+    depth: float = 1.0
 
     @classmethod
     def of(cls, source: Any) -> "Exposure":

@@ -5,6 +5,7 @@ from .csv_files import (
     SKIN_TAN_OT_export_exposures,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_import_exposures,
+    SKIN_TAN_OT_import_weather,
 )
 from .exposures import (
     SKIN_TAN_OT_add_exposure,
@@ -44,6 +45,7 @@ CLASSES = (
     SKIN_TAN_OT_reset_timing,
     SKIN_TAN_OT_go_to_darkest_day,
     SKIN_TAN_OT_import_exposures,
+    SKIN_TAN_OT_import_weather,
     SKIN_TAN_OT_export_exposures,
     SKIN_TAN_OT_export_schedule,
     SKIN_TAN_OT_fit_size,

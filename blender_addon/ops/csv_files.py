@@ -1,4 +1,4 @@
-"""The buttons that read and write the list of exposures as CSV."""
+"""The buttons that read the list of exposures from files, and write it."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -10,8 +10,10 @@ from hylios.errors import InputError
 from hylios.files import require_target, written_beside
 
 from ..apply import tannable
-from ..model.exposures_csv import exposures_text, read_exposures
+from ..model.exposures_csv import ReadSchedule, exposures_text, read_exposures
 from ..model.schedule import csv_text
+from ..model.settings import LAST_DAY_LIMIT, USUAL_DATE, USUAL_HOURS
+from ..model.weather import weather_exposures
 from ..props import settings_of
 from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
 from .reports import finished
@@ -26,7 +28,7 @@ def _path_of(operator: Any) -> Path:
         If it is given none.
     """
     if not operator.filepath:
-        raise InputError("No file is chosen; choose a CSV file.")
+        raise InputError("No file is chosen; choose one.")
     return Path(bpy.path.abspath(operator.filepath))
 
 
@@ -84,15 +86,9 @@ class SKIN_TAN_OT_export_schedule(_SavesCsv, bpy.types.Operator):  # noqa: N801
         return csv_text(obj.name, settings_of(obj).values())
 
 
-class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N801
-    bl_idname = "skin_tan.import_exposures"
-    bl_label = "Import CSV"
-    bl_description = (
-        "Read times in the sun from CSV: columns day and SED are enough, a table's own export, or "
-        "what Export CSV has saved"
-    )
-    bl_options = {"REGISTER", "UNDO"}
-    filter_glob: bpy.props.StringProperty(default="*.csv;*.txt", options={"HIDDEN"})
+class _Reads(ImportHelper):
+    """An operator that reads the active object's exposures from a file."""
+
     replace: bpy.props.BoolProperty(
         name="Replace",
         description="Remove the times in the sun that are listed, not add to them",
@@ -106,9 +102,9 @@ class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N
     def execute(self, context):
         settings = active_settings(context)
         try:
-            read = read_exposures(_path_of(self))
+            read = self.read(_path_of(self))
         except InputError as error:
-            self.report({"ERROR"}, str(error))
+            cast(Any, self).report({"ERROR"}, str(error))
             return {"CANCELLED"}
         if self.replace:
             settings.exposures.clear()
@@ -117,6 +113,85 @@ class SKIN_TAN_OT_import_exposures(bpy.types.Operator, ImportHelper):  # noqa: N
             for name, value in values.items():
                 setattr(exposure, name, value)
         settings.exposure_index = max(0, len(settings.exposures) - 1)
-        count = len(read.exposures)
-        self.report({"INFO"}, " ".join([f"Read times in the sun: {count}.", *read.remarks]))
+        said = " ".join([f"Read times in the sun: {len(read.exposures)}.", *read.remarks])
+        cast(Any, self).report({"INFO"}, said)
         return {"FINISHED"}
+
+    def read(self, path: Path) -> ReadSchedule:
+        """What a file says; InputError if it cannot be used."""
+        raise NotImplementedError
+
+
+class SKIN_TAN_OT_import_exposures(_Reads, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.import_exposures"
+    bl_label = "Import CSV"
+    bl_description = (
+        "Read times in the sun from CSV: columns day and SED are enough, a table's own export, or "
+        "what Export CSV has saved"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    filter_glob: bpy.props.StringProperty(default="*.csv;*.txt", options={"HIDDEN"})
+
+    def read(self, path: Path) -> ReadSchedule:
+        return read_exposures(path)
+
+
+class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
+    bl_idname = "skin_tan.import_weather"
+    bl_label = "Import Weather"
+    bl_description = (
+        "Read days in the sun from a weather file: an EPW file, or UV indices by time (CSV, JSON)"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    filter_glob: bpy.props.StringProperty(default="*.epw;*.csv;*.json;*.txt", options={"HIDDEN"})
+    month: bpy.props.IntProperty(
+        name="Month",
+        description="Month of the first day, in an EPW file; UV indices count from their first day",
+        default=USUAL_DATE[0],
+        min=1,
+        max=12,
+    )
+    day_of_month: bpy.props.IntProperty(
+        name="Day",
+        description="First day, in an EPW file; UV indices count from their first day",
+        default=USUAL_DATE[1],
+        min=1,
+        max=31,
+    )
+    days: bpy.props.IntProperty(
+        name="Days",
+        description="How many days in a row the skin is in the sun",
+        default=7,
+        min=1,
+        max=int(LAST_DAY_LIMIT),
+    )
+    from_hour: bpy.props.FloatProperty(
+        name="From",
+        description="Start on every day, in hours of the file's clock, in an EPW file without "
+        "daylight saving",
+        default=USUAL_HOURS[0],
+        min=0.0,
+        max=24.0,
+        step=50,
+        precision=1,
+    )
+    to_hour: bpy.props.FloatProperty(
+        name="To",
+        description="End on every day, in hours of the file's clock",
+        default=USUAL_HOURS[1],
+        min=0.0,
+        max=24.0,
+        step=50,
+        precision=1,
+    )
+
+    def read(self, path: Path) -> ReadSchedule:
+        given = weather_exposures(
+            path,
+            month=self.month,
+            day_of_month=self.day_of_month,
+            days=self.days,
+            first=self.from_hour,
+            last=self.to_hour,
+        )
+        return ReadSchedule(given)

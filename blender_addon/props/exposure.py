@@ -4,13 +4,16 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..model.settings import (
+    AIR,
     DOSE_LIMIT,
     DURATION_LIMIT,
     FACTOR_LIMIT,
     LAST_DAY_LIMIT,
     MULTIPLE_LIMIT,
     USUAL_DATE,
+    USUAL_GROUND,
     USUAL_HOURS,
+    WATER,
 )
 from .mask import SkinTanMask, show_mask
 
@@ -18,7 +21,24 @@ UNITS = (
     ("SED", "Dose", "As a dose in standard erythema doses (SED)"),
     ("MMD", "Tanning Doses", "As a multiple of the smallest dose that tans this skin (MMD)"),
     ("UV_INDEX", "UV Index", "As hours at a UV index"),
-    ("SUN", "Sun", "As hours of a day at a place, under a clear sky"),
+    ("SUN", "Sun", "As hours of a day at a place"),
+)
+
+GROUNDS = (
+    (USUAL_GROUND, "Usual", "Streets and gardens: 5 % of the ultraviolet comes back"),
+    ("GRASS", "Grass", "3 % of the ultraviolet comes back"),
+    ("WATER", "Water", "A lake or the sea, seen from a boat or the shore: 15 % comes back"),
+    ("SAND", "Sand", "Dry sand: 18 % comes back"),
+    ("FOAM", "Foam", "Surf: 25 % comes back"),
+    ("SNOW", "Snow", "80 % comes back, so the sky is brighter too: 40 % more sun"),
+)
+
+THROUGH = (
+    (AIR, "Air", "Nothing between the skin and the sun"),
+    ("WINDOW", "Window", "Window glass: no UVB passes, so skin tans and burns far less"),
+    ("CAR", "Car Window", "The side window of a car: no UVB passes"),
+    ("LAMINATED", "Windscreen", "Laminated glass: hardly any ultraviolet passes"),
+    (WATER, "Water", "Water over the skin: a metre leaves about half of what burns"),
 )
 
 
@@ -114,6 +134,49 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         min=0.0,
         max=24.0,
         step=50,
+        precision=1,
+    )
+    altitude: FloatProperty(
+        name="Altitude (m)",
+        description="Height of the place over the sea, in metres. A thousand bring 8 to 10 % more "
+        "sun",
+        min=-500.0,
+        soft_min=0.0,
+        soft_max=5000.0,
+        max=9000.0,
+        step=10000,
+        precision=0,
+    )
+    cloud: FloatProperty(
+        name="Clouds",
+        description="How much of the sky clouds cover. Half of it leaves 84 % of the sun, all of "
+        "it 31 %: an average of all clouds",
+        subtype="PERCENTAGE",
+        min=0.0,
+        max=100.0,
+        precision=0,
+    )
+    ground: EnumProperty(
+        name="Ground",
+        description="What lies around, for how much of the sun comes back from it",
+        items=GROUNDS,
+        default=USUAL_GROUND,
+    )
+    through: EnumProperty(
+        name="Through",
+        description="What the sun goes through before it meets the skin",
+        items=THROUGH,
+        default=AIR,
+    )
+    depth: FloatProperty(
+        name="Depth (m)",
+        description="How much water is over the skin, in metres. An estimate: a clear sea lets "
+        "three times as deep",
+        default=1.0,
+        min=0.0,
+        soft_max=10.0,
+        max=100.0,
+        step=10,
         precision=1,
     )
     sunscreen: BoolProperty(

@@ -8,7 +8,7 @@ from hylios.errors import InputError
 
 from ..model import summary
 from ..model.lines import Line
-from ..model.settings import Exposure
+from ..model.settings import WATER, Exposure
 from ..props import SkinTanSettings, settings_of
 from ..translations import told
 from .lines import draw_lines
@@ -18,7 +18,13 @@ FIELDS = {
     "SED": (("dose",),),
     "MMD": (("multiple",),),
     "UV_INDEX": (("uv_index", "duration"),),
-    "SUN": (("latitude",), ("month", "day_of_month"), ("from_hour", "to_hour")),
+    "SUN": (
+        ("latitude",),
+        ("altitude",),
+        ("month", "day_of_month"),
+        ("from_hour", "to_hour"),
+        ("cloud",),
+    ),
 }
 """What is shown of an exposure by its unit, row by row."""
 
@@ -45,6 +51,7 @@ class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801
         layout.operator("skin_tan.copy_to_selected", icon="COPYDOWN")
         layout.separator()
         layout.operator("skin_tan.import_exposures", icon="IMPORT")
+        layout.operator("skin_tan.import_weather", icon="LIGHT_SUN")
         layout.operator("skin_tan.export_exposures", icon="EXPORT")
         layout.operator("skin_tan.export_schedule", text="Export for lut-builder", icon="EXPORT")
 
@@ -77,6 +84,11 @@ def draw_exposures(
         row = column.row(align=True)
         for name in names:
             row.prop(exposure, name)
+    if exposure.unit == "SUN":
+        layout.prop(exposure, "ground")
+        layout.prop(exposure, "through")
+        if exposure.through == WATER:
+            layout.prop(exposure, "depth")
     layout.prop(exposure, "sunscreen")
     if exposure.sunscreen:
         row = layout.row(align=True)

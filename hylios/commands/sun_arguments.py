@@ -8,14 +8,13 @@ from typing import Any
 
 from hylios.commands.texts import number
 from hylios.errors import InputError, require_range
-from hylios.readers.epw import Weather, epw_of, is_epw
-from hylios.readers.text import lines_of, name_of
-from hylios.readers.uv_forecast import Forecast, forecast_of
+from hylios.readers.epw import Weather
+from hylios.readers.uv_forecast import Forecast
 from hylios.sun.doses import Doses, of_sun
 from hylios.sun.protection import Protection
 from hylios.sun.sky import ClearSky
 from hylios.sun.surroundings import GROUNDS, ground_albedo
-from hylios.sun.weather import days_of, of_forecast, of_weather
+from hylios.sun.weather import days_of, of_forecast, of_weather, read_weather
 
 USUAL_SKY = ClearSky()
 SKY = {
@@ -126,8 +125,7 @@ def asked_sun(arguments: argparse.Namespace) -> AskedSun:
     """
     weather = None
     if arguments.weather is not None:
-        lines, name = lines_of(arguments.weather), name_of(arguments.weather)
-        weather = epw_of(lines, name) if is_epw(lines) else forecast_of(lines, name)
+        weather = read_weather(arguments.weather)
         of_the_file = PLACE if isinstance(weather, Weather) else (*PLACE, *SKY, "ground")
         _require_none(arguments, of_the_file, "with --weather, whose file says it")
     elif not arguments.sun:

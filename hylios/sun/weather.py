@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 from datetime import date
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.readers.epw import LEAP_YEAR, Weather
-from hylios.readers.uv_forecast import Forecast
+from hylios.readers.epw import LEAP_YEAR, Weather, epw_of, is_epw
+from hylios.readers.text import lines_of, name_of
+from hylios.readers.uv_forecast import Forecast, forecast_of
 from hylios.spectra import Spectra
 from hylios.sun.action_spectra import SED, USUAL_TANNING, Absorptance
 from hylios.sun.doses import INSTANTS, WATTS_PER_UV_INDEX, Doses, of_sun
@@ -30,6 +32,18 @@ one."""
 
 LONGEST_GAP = 3.0
 """Hours between two UV indices, beyond which there is night between them."""
+
+
+def read_weather(path: Path) -> Weather | Forecast:
+    """Read an EPW file, or UV indices by time; the path `-` is standard input.
+
+    Raises
+    ------
+    InputError
+        As `hylios.readers.epw.read_epw` or `hylios.readers.uv_forecast.read_forecast`.
+    """
+    lines, name = lines_of(path), name_of(path)
+    return epw_of(lines, name) if is_epw(lines) else forecast_of(lines, name)
 
 
 def of_weather(

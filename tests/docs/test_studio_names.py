@@ -52,10 +52,13 @@ def test_all_operators_are_on_the_page():
 
 @pytest.mark.parametrize("name", OPERATORS)
 def test_all_keywords_are_on_the_page(name):
-    declared = OPERATORS[name].__dict__.get("__annotations__", ())
+    is_preset = name.endswith("preset_add")
+    ours = [cls for cls in OPERATORS[name].__mro__ if cls.__module__.startswith("blender_addon")]
+    ours = ours[:1] if is_preset else ours
+    declared = {keyword for cls in ours for keyword in cls.__dict__.get("__annotations__", ())}
     own = {keyword for keyword in declared if not keyword.startswith("_")} - OF_A_DIALOG
-    inherited = {"filepath"} if name.endswith(("exposures", "schedule")) else set()
-    if name.endswith("preset_add"):
+    inherited = {"filepath"} if name.endswith(("exposures", "schedule", "weather")) else set()
+    if is_preset:
         inherited = {"name"}
     assert calls()[name] == own | inherited
 

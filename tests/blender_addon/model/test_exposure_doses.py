@@ -11,6 +11,8 @@ from blender_addon.model import doses
 from hylios.errors import InputError
 from hylios.sun.action_spectra import Absorptance
 from hylios.sun.doses import of_sun
+from hylios.sun.protection import layered, sunscreen, water, window
+from hylios.sun.sky import ClearSky
 
 HEADER = {"absorptance": {"wavelengths_nm": [280.0, 340.0, 400.0], "values": [0.97, 0.9, 0.7]}}
 EXPOSURE = replace(USUAL, day=3.0, multiple=2.5, duration=2.5, to_hour=13.5)
@@ -39,6 +41,31 @@ def test_the_sun_of_a_day_is_placed_on_the_day_of_the_tan():
     assert np.array_equal(sun.melanogenesis, expected.melanogenesis)
     assert sun.melanogenesis == pytest.approx(sun.erythemal, rel=0.1)
     assert np.all(received(unit="SUN", latitude=-40.0).erythemal < 0.5 * sun.erythemal)
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({"altitude": 2000.0, "ground": "SNOW"}, {"sky": ClearSky(altitude=2000.0, albedo=0.8)}),
+        ({"cloud": 50.0}, {"cloud": 0.5}),
+        ({"through": "CAR"}, {"protection": window("car")}),
+        (
+            {"through": "WATER", "depth": 0.5, "sunscreen": True},
+            {"protection": layered([water(0.5), sunscreen(30.0)])},
+        ),
+    ],
+)
+def test_the_sun_of_a_place_with_what_lies_between(changes, expected):
+    absorptance = HEADER["absorptance"]
+    skin = Absorptance(np.array(absorptance["wavelengths_nm"]), np.array(absorptance["values"]))
+    wanted = of_sun(date(doses.ANY_YEAR, 7, 15), 11.0, 13.5, 40.0, skin, **expected)
+    sun = received(unit="SUN", **changes)
+    assert sun.melanogenesis == pytest.approx(wanted.melanogenesis, rel=1e-12)
+    # They belong to a place: a dose that is given is as it is.
+    assert (
+        received(**changes).melanogenesis.sum()
+        == received(sunscreen=changes.get("sunscreen", False)).melanogenesis.sum()
+    )
 
 
 def test_a_day_of_sun_is_computed_once_for_all_days_and_skins_apart(monkeypatch):

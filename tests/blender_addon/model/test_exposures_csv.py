@@ -6,7 +6,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from blender_addon.model.exposures_csv import AMOUNTS, TITLES, exposures_text, read_exposures
+from blender_addon.model.exposures_csv import (
+    AMOUNTS,
+    CHOICES,
+    TITLES,
+    exposures_text,
+    read_exposures,
+)
 from hylios.errors import InputError
 from hylios.history import schedule_text
 from hylios.tanning import Exposures
@@ -44,6 +50,11 @@ def random_exposure(random) -> SimpleNamespace:
         sunscreen=bool(random.random() < 0.5),
         spf=between(1.0, 60.0),
         sunscreen_amount=between(0.0, 3.0),
+        altitude=between(-500.0, 9000.0),
+        cloud=between(0.0, 100.0),
+        ground=str(random.choice(["USUAL", "SNOW", "GRASS"])),
+        through=str(random.choice(["AIR", "WINDOW", "LAMINATED", "WATER"])),
+        depth=between(0.0, 100.0),
         enabled=bool(random.random() < 0.8),
         name=str(random.choice([*NAMES, letters])),
     )
@@ -52,12 +63,17 @@ def random_exposure(random) -> SimpleNamespace:
 def that_count(exposure) -> dict:
     """The settings that count, as a file gives them back."""
     names: dict[str, tuple[str, ...]] = {
-        "SUN": ("latitude", "month", "day_of_month", "from_hour", "to_hour"),
+        "SUN": (
+            *("latitude", "month", "day_of_month", "from_hour", "to_hour"),
+            *("altitude", "cloud", "ground", "through"),
+        ),
         "UV_INDEX": ("duration",),
     }
     wanted = ["day", "unit", "enabled", *names.get(exposure.unit, ())]
     if exposure.unit in AMOUNTS:
         wanted.append(AMOUNTS[exposure.unit][0])
+    if exposure.unit == "SUN" and exposure.through == "WATER":
+        wanted.append("depth")
     if exposure.sunscreen:
         wanted += ["sunscreen", "spf", "sunscreen_amount"]
     told = {name: getattr(exposure, name) for name in wanted}
@@ -119,6 +135,18 @@ def test_a_spreadsheet_with_a_decimal_comma_and_empty_cells(tmp_path):
     }  # fmt: skip
 
 
+def test_a_file_of_a_version_that_knew_only_clear_skies(tmp_path):
+    """Its columns are those of now, less the later ones; a name may hold what separates cells."""
+    path = tmp_path / "former.csv"
+    path.write_text(
+        "day,amount,unit,hours,latitude,month,day_of_month,from_hour,to_hour,spf,mg_cm2,on,name\n"
+        "2,,SUN,,36.5,8,2,10,12.5,,,yes,Été; Süden\n"
+    )
+    (told,) = read_exposures(path).exposures
+    assert (told["name"], told["latitude"]) == ("Été; Süden", 36.5)
+    assert not {"altitude", "cloud", "ground", "through", "depth"} & set(told)
+
+
 def test_an_exported_schedule(tmp_path):
     told = {"scene": "Body", "skin": "III", "days": 30.0, "mmd": 5.0, "med": 3.0}
     path = tmp_path / "sun.csv"
@@ -174,7 +202,7 @@ def test_no_file(tmp_path):
 
 def test_every_column_has_a_setting():
     assert set(that_count(random_exposure(np.random.default_rng(0)))) <= {
-        "day", "unit", "enabled", "name", "sunscreen",
+        "day", "unit", "enabled", "name", "sunscreen", *CHOICES,
         *(setting for setting, _, _ in TITLES.values()),
         *(setting for setting, _ in AMOUNTS.values()),
     }  # fmt: skip

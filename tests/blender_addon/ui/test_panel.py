@@ -278,7 +278,7 @@ def test_values_set_by_scripts_do_not_stop_the_panel(table_path, unit, value):
     exposure.unit, exposure.sunscreen = unit, True
     for name in ("day", "dose", "multiple", "uv_index", "duration", "latitude", "from_hour"):
         setattr(exposure, name, value)
-    for name in ("to_hour", "spf", "sunscreen_amount"):
+    for name in ("to_hour", "spf", "sunscreen_amount", "altitude", "cloud", "depth"):
         setattr(exposure, name, value)
     labels = drawn()
     assert any("SED: " in label or label.startswith("No dose: ") for label in labels)

@@ -1,0 +1,84 @@
+"""Times in the sun from a file of weather: a year's hours of a place, or UV indices by time."""
+
+from datetime import timedelta
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hylios.errors import InputError, require_whole
+from hylios.readers.epw import Weather
+from hylios.readers.uv_forecast import Forecast
+from hylios.sun.action_spectra import Absorptance
+from hylios.sun.weather import of_forecast, of_weather, read_weather
+
+from .doses import require_date, require_hours
+from .settings import LAST_DAY_LIMIT
+
+ANY_SKIN = Absorptance(np.array([280.0, 400.0]), np.array([1.0, 1.0]))
+"""What a meter shows does not depend on it."""
+
+
+def weather_exposures(
+    path: Path, *, month: int, day_of_month: int, days: int, first: float, last: float
+) -> tuple[dict[str, Any], ...]:
+    """What a file says of some hours of days in a row, as settings of an exposure a day, in SED.
+
+    Parameters
+    ----------
+    path : Path
+        Of an EPW file, or of UV indices by time (CSV or JSON).
+    month, day_of_month : int
+        Of the first day, in an EPW file; UV indices count from their first day on.
+    days : int
+        At most so many.
+    first, last : float
+        Hours of the day, in the standard time of the place, or by the clock of the UV indices.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, has not such a day, or no sun in these hours.
+    """
+    require_whole("number of days", days, 1, int(LAST_DAY_LIMIT))
+    require_hours(first, last)
+    weather = read_weather(path)
+    if isinstance(weather, Forecast):
+        told = _of_forecast(weather, days, first, last)
+    else:
+        told = _of_year(weather, month, day_of_month, days, first, last)
+    if not told:
+        raise InputError(
+            f"{weather.name} has no sun from {first:g} to {last:g} h on these days; allowed are "
+            "hours with some."
+        )
+    return tuple(told)
+
+
+def _of_year(
+    weather: Weather, month: int, day_of_month: int, days: int, first: float, last: float
+) -> list[dict[str, Any]]:
+    begin = require_date(month, day_of_month)
+    dates = [begin + timedelta(days=number) for number in range(days)]
+    doses = [of_weather(weather, day, first, last, ANY_SKIN).erythemal.sum() for day in dates]
+    names = [f"{day:%m-%d}" for day in dates]
+    return _with_sun(doses, names, first)
+
+
+def _of_forecast(forecast: Forecast, days: int, first: float, last: float) -> list[dict[str, Any]]:
+    doses, names = [], []
+    for number in range(min(days, int(forecast.hours[-1] // 24.0) + 1)):
+        midnight = 24.0 * number
+        own = of_forecast(forecast, midnight + first, midnight + last)
+        doses.append(own.erythemal.sum())
+        names.append((forecast.day + timedelta(days=number)).isoformat())
+    return _with_sun(doses, names, first)
+
+
+def _with_sun(doses: list[float], names: list[str], first: float) -> list[dict[str, Any]]:
+    """Settings of the days that have some sun."""
+    return [
+        {"day": number + first / 24.0, "unit": "SED", "dose": float(dose), "name": name}
+        for number, (dose, name) in enumerate(zip(doses, names, strict=True))
+        if dose > 0.0
+    ]

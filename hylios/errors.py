@@ -52,6 +52,12 @@ def require_whole(name: str, value: float, low: int, high: int) -> int:
     return int(value)
 
 
+def require_kind(name: str, value: Any, kind: type, expected: str) -> None:
+    """Raise InputError where a value is not of a kind; `expected` says what is and whence."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name} is {shown(str(value)[:60])!r}; expected {expected}.")
+
+
 def as_numbers(name: str, values: ArrayLike) -> np.ndarray:
     """Values as an array of floats of their own, of any shape.
 

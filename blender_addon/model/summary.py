@@ -7,21 +7,17 @@ from one drawing to the next.
 import functools
 from pathlib import Path
 
-import numpy as np
-
 from hylios.errors import InputError
-from hylios.sun.doses import Doses
+from hylios.sun.doses import Doses, joined
 from hylios.table.provenance import MinimalDoses, minimal_doses
+from hylios.tanning import first_blistering_day
 
 from . import catalogue, doses
 from .lines import Line
-from .settings import LAST_DAY_LIMIT, Exposure, TanSettings
+from .settings import Exposure, TanSettings
 
 SED_PER_HOUR_OF_SUMMER_SUN = 7.2
 """Erythemal dose of an hour at UV index 8: 8 x 25 mW/m^2 for an hour is 720 J/m^2."""
-
-BLISTERING = 4.0
-"""Burn doses of a day with more of which skin blisters in life, which the model does not show."""
 
 LINE = 40
 """Characters that fit into a panel of usual width."""
@@ -110,17 +106,16 @@ def _of_blisters(settings: TanSettings, stamp: tuple[int, int]) -> tuple[str, ..
     """The lines, or why there are none, as in `_of_dose`."""
     path = settings.table
     minimal = settings.minimal_doses(catalogue.provenance(path))
-    by_day = np.zeros(int(LAST_DAY_LIMIT) + 3)
+    parts = []
     for exposure in settings.exposures:
         received = _received(exposure, path, stamp, settings.own_doses)
         if isinstance(received, str):
             return received
-        days = (received.hours // 24).astype(int)
-        np.add.at(by_day, np.minimum(days, by_day.size - 1), received.thickening / minimal.med)
-    blistering = np.flatnonzero(by_day > BLISTERING * (1.0 + 1e-9))
-    if not blistering.size:
+        parts.append(received)
+    together = joined(parts)
+    day = first_blistering_day(together.hours, together.thickening / minimal.med)
+    if day is None:
         return ()
-    day = float(blistering[0])
     return (Line("Above 4 burn doses on day {day:.0f}:", day=day), "blisters in life; not shown")
 
 

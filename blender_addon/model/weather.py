@@ -9,10 +9,13 @@ import numpy as np
 from hylios.errors import InputError, require_whole
 from hylios.readers.epw import Weather
 from hylios.readers.uv_forecast import Forecast
+from hylios.sun import file_notes
 from hylios.sun.action_spectra import Absorptance
-from hylios.sun.weather import of_forecast, of_weather, read_weather
+from hylios.sun.forecast import of_forecast
+from hylios.sun.weather import of_days, read_weather
 
 from .doses import require_date, require_hours
+from .exposures_csv import ReadSchedule
 from .settings import LAST_DAY_LIMIT
 
 ANY_SKIN = Absorptance(np.array([280.0, 400.0]), np.array([1.0, 1.0]))
@@ -21,8 +24,10 @@ ANY_SKIN = Absorptance(np.array([280.0, 400.0]), np.array([1.0, 1.0]))
 
 def weather_exposures(
     path: Path, *, month: int, day_of_month: int, days: int, first: float, last: float
-) -> tuple[dict[str, Any], ...]:
+) -> ReadSchedule:
     """What a file says of some hours of days in a row, as settings of an exposure a day, in SED.
+
+    The remarks say what the file leaves out.
 
     Parameters
     ----------
@@ -44,35 +49,37 @@ def weather_exposures(
     require_hours(first, last)
     weather = read_weather(path)
     if isinstance(weather, Forecast):
-        told = _of_forecast(weather, days, first, last)
+        told, notes = _of_forecast(weather, days, first, last)
     else:
-        told = _of_year(weather, month, day_of_month, days, first, last)
+        told, notes = _of_year(weather, month, day_of_month, days, first, last)
     if not told:
         raise InputError(
             f"{weather.name} has no sun from {first:g} to {last:g} h on these days; allowed are "
             "hours with some."
         )
-    return tuple(told)
+    return ReadSchedule(tuple(told), tuple(f"{note[0].upper()}{note[1:]}." for note in notes))
 
 
 def _of_year(
     weather: Weather, month: int, day_of_month: int, days: int, first: float, last: float
-) -> list[dict[str, Any]]:
+) -> tuple[list[dict[str, Any]], list[str]]:
     begin = require_date(month, day_of_month)
     dates = [begin + timedelta(days=number) for number in range(days)]
-    doses = [of_weather(weather, day, first, last, ANY_SKIN).erythemal.sum() for day in dates]
+    hours = [(day, first, last) for day in dates]
+    parts, dark = of_days(weather, hours, ANY_SKIN)
+    doses = [float(told.erythemal.sum()) for told in parts]
     names = [f"{day:%m-%d}" for day in dates]
-    return _with_sun(doses, names, first)
+    return _with_sun(doses, names, first), file_notes.of_weather(weather, dark)
 
 
-def _of_forecast(forecast: Forecast, days: int, first: float, last: float) -> list[dict[str, Any]]:
-    doses, names = [], []
-    for number in range(min(days, int(forecast.hours[-1] // 24.0) + 1)):
-        midnight = 24.0 * number
-        own = of_forecast(forecast, midnight + first, midnight + last)
-        doses.append(own.erythemal.sum())
-        names.append((forecast.day + timedelta(days=number)).isoformat())
-    return _with_sun(doses, names, first)
+def _of_forecast(
+    forecast: Forecast, days: int, first: float, last: float
+) -> tuple[list[dict[str, Any]], list[str]]:
+    count = min(days, int(forecast.hours[-1] // 24.0) + 1)
+    spans = [(24.0 * number + first, 24.0 * number + last) for number in range(count)]
+    doses = [float(of_forecast(forecast, *span).erythemal.sum()) for span in spans]
+    names = [(forecast.day + timedelta(days=number)).isoformat() for number in range(count)]
+    return _with_sun(doses, names, first), file_notes.of_forecast(forecast, spans)
 
 
 def _with_sun(doses: list[float], names: list[str], first: float) -> list[dict[str, Any]]:

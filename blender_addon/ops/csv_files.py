@@ -186,7 +186,7 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
     )
 
     def read(self, path: Path) -> ReadSchedule:
-        given = weather_exposures(
+        return weather_exposures(
             path,
             month=self.month,
             day_of_month=self.day_of_month,
@@ -194,4 +194,3 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
             first=self.from_hour,
             last=self.to_hour,
         )
-        return ReadSchedule(given)

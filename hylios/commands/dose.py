@@ -15,7 +15,8 @@ from hylios.commands.shell import print_table
 DESCRIPTION = """\
 One line for each hour of the tanning model and each exposure: the dose as a meter shows it, as it
 counts for melanin (5.1 to 5.4 of the thesis) and for thickness (5.17 to 5.20), all in SED, and the
-multiples of the minimal doses that these are.
+multiples of the minimal doses that these are. With the sun or spectra also the UVA of 320 to 400 nm
+in J/cm^2, 0 for doses that are given as numbers or by UV index.
 """
 
 
@@ -43,4 +44,6 @@ def run(arguments: argparse.Namespace) -> None:
         "mmd_multiple": doses.melanogenesis / of.skin.mmd,
         "med_multiple": doses.thickening / of.skin.med,
     }
+    if doses.uva is not None:
+        columns["uva_j_cm2"] = doses.uva
     print_table({name: values[order] for name, values in columns.items()}, digits=10)

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
+from hylios.commands import dose_notes
 from hylios.commands.shell import (
     add_skin_arguments,
     add_tanning_arguments,
     chosen_skin,
     chosen_tanning_skin,
-    note_estimates,
 )
 from hylios.commands.sun_arguments import add_sun_arguments, asked_sun
 from hylios.commands.texts import number
@@ -52,12 +52,12 @@ from hylios.tanning import (
     minimal_erythema_dose,
     minimal_melanogenesis_dose,
 )
-from hylios.tissue import SPECTRA, Model
+from hylios.tissue import Model
 
 EXPOSURES = """\
-Exposures of all kinds can be given together, and every kind repeatedly. Hours count from the
-beginning. Doses in SED, in MMD or by UV index act as they are. Doses of the sun or of a spectrum
-are weighed by action spectra and the specimen's absorptance. The sun shines on level skin.
+Exposures of all kinds can be given together, and every kind but --weather repeatedly. Hours count
+from the beginning. Doses in SED, MMD, MED or by UV index act as they are. Doses of the sun or of a
+spectrum are weighed by action spectra and the specimen's absorptance. The sun shines on level skin.
 """
 
 
@@ -99,7 +99,11 @@ def add_exposure_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments that `chosen_doses` reads."""
     exposures = parser.add_argument_group("exposures", EXPOSURES)
     for option, metavar, help_text in (
-        ("--dose", "HOUR:AMOUNT", "dose in SED, such as 30 or 30SED, or in MMD, such as 2.5MMD"),
+        (
+            "--dose",
+            "HOUR:AMOUNT",
+            "dose in SED, such as 30 or 30SED, in MMD or in MED: 2.5MMD, 2MED",
+        ),
         ("--uv-index", "HOUR:INDEX:HOURS", "hours at a UV index; an hour at index 1 is 0.9 SED"),
         ("--spectrum", "HOUR:FILE:SECONDS", "lamp: CSV of wavelength_nm,irradiance_w_m2_nm"),
     ):
@@ -145,7 +149,7 @@ def _add_protection_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
-    """The doses that the arguments ask for; says on standard error which spectra are estimates.
+    """The doses that the arguments ask for; says on standard error what of them is an estimate.
 
     Raises
     ------
@@ -154,7 +158,7 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
     """
     over = _protection(arguments)
     tanning = _tanning(arguments, of.model.spectra)
-    parts = [of_sed(*_dose(text, of.skin.mmd), over) for text in arguments.dose]
+    parts = [of_sed(*_dose(text, of.skin), over) for text in arguments.dose]
     parts += [of_uv_index(*_uv_index(text), over) for text in arguments.uv_index]
     parts += [_scheduled(path, over) for path in arguments.schedule]
     sun = asked_sun(arguments)
@@ -168,12 +172,16 @@ def chosen_doses(arguments: argparse.Namespace, of: SkinInLight) -> Doses:
             of_spectrum(*_spectrum(text), absorptance, over, of.model.spectra, tanning)
             for text in arguments.spectrum
         ]
-    parts += sun.doses(over, absorptance=absorptance, spectra=of.model.spectra, tanning=tanning)
-    doses = joined(parts)
+    light = {"absorptance": absorptance, "spectra": of.model.spectra, "tanning": tanning}
+    of_sun, notes = sun.doses(over, **light)
+    doses = joined([*parts, *of_sun])
     doses.exposures()  # whatever cannot be used is refused before anything is said
+    notes += dose_notes.of_options(arguments)
     if has_spectrum:
-        light = np.arange(FIRST_NM, LAST_NM + 1.0)
-        note_estimates(of.model, light, (*SPECTRA, TANNING_ACTIONS[tanning]))
+        notes += dose_notes.of_absorptance(of.model.spectra, TANNING_ACTIONS[tanning])
+    notes += dose_notes.of_blisters(doses, of.skin.med)
+    for note in dict.fromkeys(notes):
+        print(f"note: {note}", file=sys.stderr)
     return doses
 
 
@@ -224,13 +232,14 @@ def _parts(text: str, count: int, what: str, expected: str) -> list[str]:
     return [parts[0], ":".join(parts[1 : len(parts) - count + 2]), *parts[len(parts) - count + 2 :]]
 
 
-def _dose(text: str, mmd: float) -> tuple[float, float]:
+def _dose(text: str, skin: Skin) -> tuple[float, float]:
     """Hour and SED of HOUR:AMOUNT."""
-    hour, amount = _parts(text, 2, "a dose", "HOUR:SED, such as 0:30, or HOUR:MULTIPLE and MMD")
-    unit = mmd if amount.upper().endswith("MMD") else 1.0
-    if amount.upper().endswith(("MMD", "SED")):
+    hour, amount = _parts(text, 2, "a dose", "HOUR:SED, such as 0:30, or HOUR:2.5MMD or HOUR:2MED")
+    units = {"SED": 1.0, "MMD": skin.mmd, "MED": skin.med}
+    unit = units.get(amount[-3:].upper())
+    if unit is not None:
         amount = amount[:-3]
-    return number(hour, "hour of a dose"), unit * number(amount, "dose")
+    return number(hour, "hour of a dose"), (unit or 1.0) * number(amount, "dose")
 
 
 def _uv_index(text: str) -> tuple[float, float, float]:

@@ -1,6 +1,7 @@
 """What the project's shell commands share: how they end, and how arguments are read."""
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -34,6 +35,8 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, *arguments, **named):
         super().__init__(*arguments, **named)
+        # As Python 3.14 has it: -1:2 and -1e9 are values, not options.
+        self._negative_number_matcher = re.compile(r"-\.?\d")
         self.register("type", float, plain_number)
         self.register("type", int, plain_whole)
 

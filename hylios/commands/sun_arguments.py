@@ -2,19 +2,21 @@
 
 import argparse
 from dataclasses import dataclass
-from datetime import date, timedelta
+from datetime import date, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
+from hylios.commands import dose_notes
 from hylios.commands.texts import number
 from hylios.errors import InputError, require_range
 from hylios.readers.epw import Weather
 from hylios.readers.uv_forecast import Forecast
 from hylios.sun.doses import Doses, of_sun
+from hylios.sun.forecast import of_forecast
 from hylios.sun.protection import Protection
 from hylios.sun.sky import ClearSky
 from hylios.sun.surroundings import GROUNDS, ground_albedo
-from hylios.sun.weather import days_of, of_forecast, of_weather, read_weather
+from hylios.sun.weather import days_of, of_days, read_weather
 
 USUAL_SKY = ClearSky()
 SKY = {
@@ -42,9 +44,11 @@ def add_sun_arguments(parser: argparse.ArgumentParser) -> None:
     sun.add_argument(
         "--weather",
         type=Path,
+        action="append",
+        default=[],
         metavar="FILE",
-        help="an EPW file or UV indices by time (CSV or JSON; - for standard input); without --sun "
-        "all that is in it",
+        help="an EPW file or UV indices by time (CSV or JSON; - for standard input), one file; "
+        "without --sun all that is in it",
     )
     sun.add_argument(
         "--start",
@@ -58,7 +62,12 @@ def add_sun_arguments(parser: argparse.ArgumentParser) -> None:
             "DEGREES",
             "longitude, east positive; --sun is then in the time of a clock",
         ),
-        ("--utc-offset", "HOURS", "of that clock, daylight saving included (default: 0)"),
+        (
+            "--utc-offset",
+            "HOURS",
+            "of that clock, daylight saving included (default: 0); with --weather of a file whose "
+            "times are in UTC",
+        ),
     ):
         sun.add_argument(option, type=float, metavar=metavar, help=help_text)
     for name, (metavar, help_text) in SKY.items():
@@ -95,24 +104,29 @@ class AskedSun:
         """Whether some dose is of light of known spectrum, which a UV index is not."""
         return not isinstance(self.weather, Forecast) and bool(self.days or self.weather)
 
-    def doses(self, protection: Protection, **light: Any) -> list[Doses]:
-        """The doses; `light` is absorptance, spectra and tanning as in `of_sun`."""
+    def doses(self, protection: Protection, **light: Any) -> tuple[list[Doses], list[str]]:
+        """The doses, and what is to be said of them.
+
+        `light` is absorptance, spectra and tanning as in `of_sun`.
+        """
         arguments, weather = self.arguments, self.weather
         start = _date(arguments.start) if arguments.start else None
         if isinstance(weather, Forecast):
-            return _of_forecast(weather, self.days, start, protection)
+            parts = _of_forecast(weather, self.days, start, protection)
+            return parts, dose_notes.of_forecast(weather, self.days, parts)
         if not self.has_spectrum:
-            return []
+            return [], []
         days = self.days or days_of(weather) if weather is not None else self.days
         start = start or min(day for day, *_ in days)
         light.update(start=start, protection=protection)
         if weather is not None:
             sky = _sky(arguments, weather.altitude)
-            return [of_weather(weather, *day, sky=sky, **light) for day in days]
+            parts, dark = of_days(weather, days, sky=sky, **light)
+            return parts, dose_notes.of_weather(weather, dark)
         light.update(sky=_sky(arguments, USUAL_SKY.altitude), cloud=arguments.cloud or 0.0)
         offset = arguments.utc_offset or 0.0
         light.update(longitude=arguments.longitude, utc_offset=offset)
-        return [of_sun(*day, latitude=arguments.latitude, **light) for day in days]
+        return [of_sun(*day, latitude=arguments.latitude, **light) for day in days], []
 
 
 def asked_sun(arguments: argparse.Namespace) -> AskedSun:
@@ -124,10 +138,8 @@ def asked_sun(arguments: argparse.Namespace) -> AskedSun:
         If one cannot be used, is missing, or is there without what it belongs to.
     """
     weather = None
-    if arguments.weather is not None:
-        weather = read_weather(arguments.weather)
-        of_the_file = PLACE if isinstance(weather, Weather) else (*PLACE, *SKY, "ground")
-        _require_none(arguments, of_the_file, "with --weather, whose file says it")
+    if arguments.weather:
+        weather = _weather(arguments)
     elif not arguments.sun:
         _require_none(arguments, ("start", *PLACE, *SKY, "ground"), "without --sun")
     elif arguments.latitude is None:
@@ -135,6 +147,33 @@ def asked_sun(arguments: argparse.Namespace) -> AskedSun:
     elif arguments.utc_offset is not None and arguments.longitude is None:
         raise InputError("--utc-offset is given without --longitude.")
     return AskedSun(arguments, weather, [_sun(text) for text in arguments.sun])
+
+
+def _weather(arguments: argparse.Namespace) -> Weather | Forecast:
+    """What the weather file holds, on the clock that `--sun` is in."""
+    if len(arguments.weather) > 1:
+        raise InputError(
+            f"--weather is given {len(arguments.weather)} times; allowed is once, and doses that "
+            "`hylios dose` printed of others go into --schedule."
+        )
+    (path,) = arguments.weather
+    weather = read_weather(path)
+    if isinstance(weather, Weather):
+        _require_none(arguments, PLACE, "with --weather, whose file says it")
+        return weather
+    forecast = weather
+    needless = (*(option for option in PLACE if option != "utc_offset"), *SKY, "ground")
+    _require_none(arguments, needless, "with --weather, whose UV indices have all of it")
+    if arguments.utc_offset is None:
+        if arguments.sun and not forecast.is_local:
+            raise InputError(
+                f"{forecast.name} has times in UTC and does not say the place's clock, which --sun "
+                "is in; needed is --utc-offset, in hours, east positive, or 0 for UTC."
+            )
+        return forecast
+    if forecast.is_local and forecast.utc_offset is not None:
+        _require_none(arguments, ("utc_offset",), "with --weather, whose file says it")
+    return forecast.on_clock(arguments.utc_offset)
 
 
 def _require_none(arguments: argparse.Namespace, options: tuple[str, ...], why: str) -> None:
@@ -163,19 +202,25 @@ def _of_forecast(
     if not days:
         return [of_forecast(forecast, start=start, protection=protection)]
     parts = []
-    for day, first, last in days:
+    spans = dose_notes.spans_of(forecast, days)
+    for (day, first, last), (begin, end) in zip(days, spans, strict=True):
         for hour in (first, last):
             require_range("hour of sun", hour, 0.0, 24.0)
-        midnight = 24.0 * (day - forecast.day).days
-        if not (midnight + first < forecast.hours[-1] and midnight + last > forecast.hours[0]):
-            final = forecast.day + timedelta(hours=float(forecast.hours[-1]))
+        if first >= last:
+            raise InputError(f"sun is given from {first:g} to {last:g} h; the first must be less.")
+        if not (begin < forecast.hours[-1] and end > forecast.hours[0]):
             raise InputError(
-                f"sun on {day} lies outside {forecast.name}, which has UV indices of "
-                f"{forecast.day} to {final}."
+                f"sun on {day} from {first:g} to {last:g} h lies outside {forecast.name}, which "
+                f"has UV indices from {_moment(forecast, 0)} to {_moment(forecast, -1)}."
             )
-        begin, end = midnight + first, midnight + last
         parts.append(of_forecast(forecast, begin, end, start=start, protection=protection))
     return parts
+
+
+def _moment(forecast: Forecast, number: int) -> str:
+    midnight = datetime(forecast.day.year, forecast.day.month, forecast.day.day)  # noqa: DTZ001
+    moment = midnight + timedelta(hours=float(forecast.hours[number]))
+    return moment.isoformat(" ", "minutes")
 
 
 def _sun(text: str) -> tuple[date, float, float]:

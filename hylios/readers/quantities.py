@@ -27,6 +27,8 @@ class Quantity:
         In small letters, parts of words for what it may be mistaken for.
     is_exact : bool
         Whether a title that is its name goes before all others.
+    may_lack : bool
+        Whether cells may be empty, or say `NA`, `NaN` or `null`; they are nan.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Quantity:
     is_text: bool = False
     others: tuple[str, ...] = ()
     is_exact: bool = False
+    may_lack: bool = False
 
 
 SHARE = {"": (1.0, 1.0), "%": (1.0, 100.0)}

@@ -17,6 +17,10 @@ THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
 """Numbers with a comma that may mark decimals or thousands."""
 
 
+NONE = ("", "na", "nan", "null")
+"""What cells say, in small letters, that lack a number where they may."""
+
+
 @dataclass(frozen=True, eq=False)
 class Table:
     """Columns of a table that was read, of equal length.
@@ -26,8 +30,8 @@ class Table:
     name : str
         Of its file, as sentences call it.
     numbers : dict of str to (N,) array
-        Finite numbers in this project's units by `Quantity.name`; of what was welcome those that
-        are there.
+        Finite numbers in this project's units by `Quantity.name`, nan in cells that lack one where
+        they may; of what was welcome those that are there.
     texts : dict of str to list of N str
     lines : (N,) int array
         Where each row stands in the file.
@@ -160,7 +164,8 @@ def _the_only(tables: Sequence[Table], failures: Sequence[InputError]) -> Table:
     for other in others:
         alike = first.numbers.keys() == other.numbers.keys() and first.texts == other.texts
         if not alike or not all(
-            np.array_equal(first.numbers[title], other.numbers[title]) for title in first.numbers
+            np.array_equal(first.numbers[title], other.numbers[title], equal_nan=True)
+            for title in first.numbers
         ):
             raise InputError("its cells can be separated in two ways; allowed is one separator")
     return first
@@ -170,6 +175,7 @@ def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Tab
     """The columns of some quantities; InputError says no file's name yet."""
     numbers, texts = {}, {}
     cells, factors = {}, {}
+    lacking = {quantity.name for quantity in quantities if quantity.may_lack}
     for quantity in quantities:
         position = place(layout.titles, quantity)
         if position is None:
@@ -183,10 +189,16 @@ def columns_of(layout: Layout, name: str, quantities: Sequence[Quantity]) -> Tab
     mark = _decimal_mark([cell for column in cells.values() for cell in column])
     for title, column in cells.items():
         times, over = factors[title]
-        values = np.array([_number(title, line, cell, mark) for line, cell in column], dtype=float)
+        lacks = np.array([title in lacking and cell.casefold() in NONE for _, cell in column], bool)
+        values = np.full(len(column), np.nan)
+        values[~lacks] = [
+            _number(title, line, cell, mark)
+            for (line, cell), lack in zip(column, lacks, strict=True)
+            if not lack
+        ]
         with np.errstate(over="ignore"):
             numbers[title] = values * times / over
-        beyond = np.flatnonzero(~np.isfinite(numbers[title]))
+        beyond = np.flatnonzero(~np.isfinite(numbers[title]) & ~lacks)
         if beyond.size:
             line, cell = column[beyond[0]]
             raise InputError(f"{title} in line {line} is {cell[:60]}; allowed are finite numbers")

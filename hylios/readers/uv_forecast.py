@@ -3,18 +3,22 @@
 CSV has columns of a time and of an index. JSON is a list of objects with both, or an object of two
 lists, itself or under a key: as Open-Meteo (`hourly`), OpenUV (`result`), OpenWeather (`hourly`, in
 seconds since 1970) and the US Environmental Protection Agency have them.
+
+Times are on the clock of the place: those that say no offset from universal time or one other than
+0, and universal times where the file says the place's offset. Otherwise they are universal.
 """
 
 import json
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from datetime import UTC, date, datetime, timedelta
+from dataclasses import dataclass, replace
+from datetime import UTC, date, datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from hylios.errors import InputError, shown
+from hylios.errors import InputError, require_range, shown
 from hylios.readers.quantities import Quantity
 from hylios.readers.table import table_of
 from hylios.readers.text import lines_of, name_of
@@ -26,8 +30,16 @@ INDICES = ("uv_index", "uvi", "uv", "uv index", "uv_value", "uvindex")
 UNDER = ("hourly", "result", "data", "forecast", "list")
 """Names, in small letters, of times, of indices, and of what holds them."""
 
+OFFSETS = ("timezone_offset", "utc_offset_seconds")
+UNIVERSAL = ("gmt", "utc", "etc/gmt", "etc/utc")
+LONGITUDES = ("longitude", "lon")
+"""Names of a place's offset from universal time in seconds, of a time zone that is none of a place
+but what services take for want of one, and of a longitude."""
+
+MOST_OFFSET = 14.0
+
 TIME = Quantity("time", TIMES, is_text=True)
-INDEX = Quantity("uv_index", INDICES)
+INDEX = Quantity("uv_index", INDICES, may_lack=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,16 +56,68 @@ class Forecast:
         Since that day's midnight, of the file's own clock.
     indices : (N,) array
         0 to 50.
+    utc_offset : float or None
+        Of that clock from universal time, hours, east positive; None where the file doesn't say it.
+    is_local : bool
+        Whether it is the clock of the place. If not it is universal time.
+    longitude : float or None
+        Degrees, east positive, where the file says it.
+    missing : int
+        Times without an index, which were left out.
     """
 
     name: str
     day: date
     hours: np.ndarray
     indices: np.ndarray
+    utc_offset: float | None = None
+    is_local: bool = True
+    longitude: float | None = None
+    missing: int = 0
+
+    def on_clock(self, utc_offset: float) -> "Forecast":
+        """The same in the time of a place, if this is in universal time.
+
+        Parameters
+        ----------
+        utc_offset : float
+            Of the place's clock, hours, east positive, daylight saving included.
+
+        Raises
+        ------
+        InputError
+            If it is out of range, or this is on a place's clock already.
+        """
+        require_range("offset from UTC", utc_offset, -MOST_OFFSET, MOST_OFFSET, "hours")
+        if self.is_local:
+            raise InputError(
+                f"an offset from UTC is given for {self.name}, whose times are on a place's clock; "
+                "needed are times in UTC, such as 2025-06-21T10:00Z."
+            )
+        hours = self.hours + utc_offset
+        days = int(np.floor(hours[0] / 24.0))
+        return replace(
+            self,
+            day=self.day + timedelta(days=days),
+            hours=hours - 24.0 * days,
+            utc_offset=utc_offset,
+            is_local=True,
+        )
+
+
+@dataclass(frozen=True)
+class _Place:
+    """What a file says of the place of its times; None for what it doesn't."""
+
+    utc_offset: float | None = None
+    time_zone: str = ""
+    longitude: float | None = None
 
 
 def read_forecast(path: Path) -> Forecast:
     """Read such a file; the path `-` is standard input.
+
+    A time without an index is left out (`Forecast.missing`).
 
     Raises
     ------
@@ -66,35 +130,101 @@ def read_forecast(path: Path) -> Forecast:
 
 def forecast_of(lines: Sequence[str], name: str) -> Forecast:
     """A forecast from lines of text; the rest as in `read_forecast`."""
-    text = "\n".join(lines)
+    text, place = "\n".join(lines), _Place()
     if text.lstrip()[:1] in ("{", "["):
-        times, indices = _of_json(text, name)
-        places = [f"entry {number}" for number in range(1, len(times) + 1)]
+        content = _json(text, name)
+        place = _place(content, name)
+        times, indices = _of_json(content, name)
+        entries = [f"entry {number}" for number in range(1, len(times) + 1)]
     else:
         table = table_of(lines, name, (TIME, INDEX))
-        times, indices = table.texts[TIME.name], table.numbers[INDEX.name].tolist()
-        places = [f"line {line}" for line in table.lines]
-    if len(times) < 2:
-        raise InputError(f"{name} has {len(times)} UV indices; needed are two or more.")
-    moments = [_moment(name, *both) for both in zip(times, places, strict=True)]
-    values = [_index(name, *both) for both in zip(indices, places, strict=True)]
-    _require_order(name, moments, places)
+        times, numbers = table.texts[TIME.name], table.numbers[INDEX.name].tolist()
+        indices = [None if math.isnan(number) else number for number in numbers]
+        entries = [f"line {line}" for line in table.lines]
+    present = [number for number, index in enumerate(indices) if index is not None]
+    if len(present) < 2:
+        raise InputError(f"{name} has {len(present)} UV indices; needed are two or more.")
+    moments = [_moment(name, *both) for both in zip(times, entries, strict=True)]
+    values = [_index(name, indices[number], entries[number]) for number in present]
+    _require_order(name, moments, entries)
+    moments, offset, is_local = _on_the_places_clock(moments, place)
     day = moments[0].date()
     midnight = datetime(day.year, day.month, day.day, tzinfo=moments[0].tzinfo)
-    hours = [(moment - midnight) / timedelta(hours=1) for moment in moments]
-    return Forecast(name, day, np.array(hours), np.array(values))
+    hours = [(moments[number] - midnight) / timedelta(hours=1) for number in present]
+    return Forecast(
+        name,
+        day,
+        np.array(hours),
+        np.array(values),
+        offset,
+        is_local,
+        place.longitude,
+        len(indices) - len(present),
+    )
 
 
-def _of_json(text: str, name: str) -> tuple[list[Any], list[Any]]:
-    """Times and indices, of equal length."""
+def _on_the_places_clock(
+    moments: list[datetime], place: _Place
+) -> tuple[list[datetime], float | None, bool]:
+    """Times, their offset from universal time in hours, and whether that is the place's."""
+    own, offset = moments[0].utcoffset(), place.utc_offset
+    is_usual = offset == 0.0 and place.time_zone.casefold() in UNIVERSAL
+    if own is None:
+        return moments, offset, not is_usual
+    hours = own / timedelta(hours=1)
+    if offset is not None and not is_usual:
+        zone = timezone(timedelta(hours=offset))
+        return [moment.astimezone(zone) for moment in moments], offset, True
+    return moments, hours, hours != 0.0
+
+
+def _json(text: str, name: str) -> Any:
     try:
-        content = json.loads(text)
+        return json.loads(text)
     except json.JSONDecodeError as error:
         raise InputError(
             f"{name} cannot be read: it is no JSON in line {error.lineno}, {error.msg}."
         ) from error
     except (RecursionError, ValueError) as error:
         raise InputError(f"{name} cannot be read: its JSON is too deep or too large.") from error
+
+
+def _place(content: Any, name: str) -> _Place:
+    """What JSON says of the place.
+
+    Raises
+    ------
+    InputError
+        If its offset from universal time is out of range.
+    """
+    told = _named(content, OFFSETS)
+    if told is None:
+        return _Place(longitude=_degrees(content))
+    seconds = 3600.0 * MOST_OFFSET
+    if isinstance(told, bool) or not isinstance(told, int | float) or not abs(told) <= seconds:
+        raise InputError(
+            f"{name} has an offset from UTC of {_written(told)}; allowed is -{seconds:g} to "
+            f"{seconds:g} seconds."
+        )
+    zone = _named(content, ("timezone",))
+    return _Place(told / 3600.0, zone if isinstance(zone, str) else "", _degrees(content))
+
+
+def _degrees(content: Any) -> float | None:
+    told = _named(content, LONGITUDES)
+    is_number = isinstance(told, int | float) and not isinstance(told, bool)
+    return float(told) if is_number and -180.0 <= told <= 180.0 else None
+
+
+def _written(given: Any) -> str:
+    """A value as JSON writes it, words in quotes, and at most 60 letters of it."""
+    if given is None or isinstance(given, bool):
+        return json.dumps(given)
+    return repr(shown(str(given)[:60]))
+
+
+def _of_json(content: Any, name: str) -> tuple[list[Any], list[Any]]:
+    """Times and indices, of equal length; None for an index that is missing."""
     for held in (content, *(_named(content, (key,)) for key in UNDER)):
         times, indices = _named(held, TIMES), _named(held, INDICES)
         if isinstance(times, list) and isinstance(indices, list):
@@ -108,6 +238,11 @@ def _of_json(text: str, name: str) -> tuple[list[Any], list[Any]]:
             return [_named(entry, TIMES) for entry in held], [
                 _named(entry, INDICES) for entry in held
             ]
+    if _named(content, ("daily",)) is not None:
+        raise InputError(
+            f"{name} has UV indices of whole days; needed are those of hours, since a day's "
+            "greatest index alone says no dose."
+        )
     raise InputError(
         f"{name} has no times and UV indices; expected are lists called time and uv_index, or a "
         "list of objects with both."
@@ -136,8 +271,7 @@ def _moment(name: str, given: Any, place: str) -> datetime:
             except ValueError:
                 continue
     raise InputError(
-        f"{name} has a time of {shown(str(given)[:60])!r} in {place}; expected one such as "
-        "2025-06-21T10:00."
+        f"{name} has a time of {_written(given)} in {place}; expected one such as 2025-06-21T10:00."
     )
 
 
@@ -147,7 +281,7 @@ EPA = "%b/%d/%Y %I %p"
 def _index(name: str, given: Any, place: str) -> float:
     if isinstance(given, bool) or not isinstance(given, int | float):
         raise InputError(
-            f"{name} has a UV index of {shown(str(given)[:60])!r} in {place}; expected a number."
+            f"{name} has a UV index of {_written(given)} in {place}; expected a number."
         )
     if not 0.0 <= given <= MOST_INDEX:
         raise InputError(

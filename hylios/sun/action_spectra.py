@@ -136,7 +136,7 @@ def melanogenesis_dose(
         If the wavelengths do not ascend, the exposure is negative or not a number, or not 0 below
         280 nm, or there is no such tanning.
     """
-    if tanning not in TANNING_ACTIONS:
+    if not isinstance(tanning, str) or tanning not in TANNING_ACTIONS:
         raise InputError(
             f"action spectrum of tanning is {str(tanning)[:60]!r}; allowed are "
             f"{' and '.join(TANNING_ACTIONS)}."

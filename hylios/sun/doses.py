@@ -11,7 +11,7 @@ from datetime import date
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hylios.errors import InputError, as_numbers, require_range
+from hylios.errors import InputError, as_numbers, require_kind, require_range
 from hylios.spectra import Spectra
 from hylios.sun.action_spectra import (
     LAST_NM,
@@ -23,11 +23,11 @@ from hylios.sun.action_spectra import (
     resampled,
     thickening_dose,
 )
-from hylios.sun.position import require_day, sun
-from hylios.sun.protection import BARE, Protection
+from hylios.sun.position import Sun, require_day, sun
+from hylios.sun.protection import BARE, Protection, require_protection
 from hylios.sun.sky import ClearSky, sunlight
 from hylios.sun.surroundings import cloud_factor
-from hylios.tanning import Exposures
+from hylios.tanning import LARGEST_DOSE, LONGEST_HOURS, Exposures
 
 WATTS_PER_UV_INDEX = 0.025
 """Erythemal irradiance of one unit, W/m^2 (ISO/CIE 17166): .9 SED in an hour."""
@@ -49,6 +49,7 @@ class Doses:
     Attributes
     ----------
     hours : (E,) array
+        Whole hours in which the doses lie, for the tan: a part of one counts from its beginning.
     erythemal : (E,) array
         As a meter under the same protection would show it.
     melanogenesis, thickening : (E,) arrays
@@ -93,9 +94,15 @@ def of_sed(hour: float, sed: float, protection: Protection = BARE) -> Doses:
     """A dose in SED at an hour, taken as it is for melanin and thickness alike.
 
     A protection's spectrum counts as it does for the sun (`Protection.of_sunlight`).
+
+    Raises
+    ------
+    InputError
+        If the hour or the dose is out of range, or the protection is none.
     """
-    received = np.array([sed * protection.of_sunlight()])
-    return Doses(np.array([hour]), received, received, received)
+    passed = require_protection(protection).of_sunlight()
+    received = np.array([require_range("dose", sed, 0.0, LARGEST_DOSE, "SED") * passed])
+    return Doses(np.array([_hour(hour)]), received, received, received)
 
 
 def of_uv_index(hour: float, index: float, duration: float, protection: Protection = BARE) -> Doses:
@@ -125,7 +132,8 @@ def of_uv_index(hour: float, index: float, duration: float, protection: Protecti
     """
     require_range("UV index", index, 0.0, 50.0)
     hours, shares = _spread(hour, duration)
-    received = index * WATTS_PER_UV_INDEX * 3600.0 / SED * shares * protection.of_sunlight()
+    passed = require_protection(protection).of_sunlight()
+    received = index * WATTS_PER_UV_INDEX * 3600.0 / SED * shares * passed
     return Doses(hours, received, received, received)
 
 
@@ -222,11 +230,22 @@ def of_sun(
     start = require_day(start or require_day(day))
     if day < start:
         raise InputError(f"sun on {day} lies before hour 0, midnight of {start}.")
+    sky = ClearSky() if sky is None else sky
+    require_kind("the sky", sky, ClearSky, "a hylios.sun.sky.ClearSky, such as ClearSky(ozone=320)")
     place = sun(day, instants, latitude, longitude, utc_offset)
-    light = sunlight(place.zenith, sky or ClearSky(), place.distance)
-    exposure = 3600.0 * lengths[:, None] * cloud_factor(cloud) * light.level.mean(axis=1)
+    wavelengths, level = _level(place, sky)
+    exposure = 3600.0 * lengths[:, None] * cloud_factor(cloud) * level
     hours = 24.0 * (day - start).days + np.floor(begins)
-    return _of_light(hours, light.wavelengths, exposure, absorptance, protection, spectra, tanning)
+    return _of_light(hours, wavelengths, exposure, absorptance, protection, spectra, tanning)
+
+
+def _level(place: Sun, sky: ClearSky) -> tuple[np.ndarray, np.ndarray]:
+    """Wavelengths, and means (E, W) of the light on level ground over instants (E, T)."""
+    is_day = (place.zenith < 90.0).any(axis=1)
+    light = sunlight(place.zenith[is_day], sky, place.distance[is_day])
+    level = np.zeros((is_day.size, light.wavelengths.size))
+    level[is_day] = light.level.mean(axis=1)
+    return light.wavelengths, level
 
 
 def _hours_of_sun(first: float, last: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -245,11 +264,13 @@ def _of_light(
     hours, wavelengths, exposure, absorptance, protection: Protection, spectra, tanning: str
 ) -> Doses:
     """Doses of radiant exposures (E, W), J/m^2/nm."""
-    if not isinstance(absorptance, Absorptance):
-        raise InputError(
-            f"the absorptance is {str(absorptance)[:60]!r}; expected a skin's, as "
-            "hylios.ultraviolet_absorptance(specimen) gives it."
-        )
+    require_kind(
+        "the absorptance",
+        absorptance,
+        Absorptance,
+        "a skin's, as hylios.ultraviolet_absorptance(specimen) gives it",
+    )
+    require_protection(protection)
     grid, light = resampled(wavelengths, exposure)
     received = light * protection.at(grid)
     return Doses(
@@ -268,8 +289,13 @@ def _uva(wavelengths: np.ndarray, exposure: np.ndarray) -> np.ndarray:
     return 1e-4 * (0.5 * (light[..., 1:] + light[..., :-1]) * steps).sum(axis=-1)
 
 
+def _hour(hour: float) -> float:
+    return require_range("an hour of exposure", hour, 0.0, LONGEST_HOURS)
+
+
 def _spread(hour: float, duration: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Hours of the model that a time from the beginning of one touches, and how much of each."""
+    _hour(hour)
     require_range("duration", duration, 0.0, LONGEST, "hours")
     passed = np.arange(max(1.0, np.ceil(duration)))
     return hour + passed, np.clip(duration - passed, 0.0, 1.0)

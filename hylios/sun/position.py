@@ -71,7 +71,8 @@ def sun(
     latitude, longitude : float
         Degrees, north and east positive.
     utc_offset : float
-        Of the clock from universal time, hours, east positive, daylight saving included.
+        Of the clock from universal time, hours, east positive, daylight saving included. Without
+        a longitude there is no clock, and it must be 0.
 
     Raises
     ------
@@ -88,6 +89,11 @@ def sun(
         require_range("longitude", longitude, -180.0, 180.0, "degrees")
         require_range("offset from UTC", utc_offset, -14.0, 14.0, "hours")
         universal = hours - utc_offset
+    elif utc_offset != 0.0:
+        raise InputError(
+            f"offset from UTC is {str(utc_offset)[:60]} without a longitude; needed is both or "
+            "neither."
+        )
     days = (day - date(2000, 1, 1)).days - 0.5 + universal / 24.0
     ascension, declination, distance = _of_the_earth(days)
     if longitude is None:

@@ -6,7 +6,7 @@ from functools import cache, reduce
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hylios.errors import InputError, require_range
+from hylios.errors import InputError, require_kind, require_range
 from hylios.sun.action_spectra import FIRST_NM, LAST_NM, erythemal_dose, require_curve
 from hylios.sun.sky import ClearSky, Sunlight, sunlight
 
@@ -57,6 +57,18 @@ class Protection:
         light, bare = _standard_sun()
         passed = erythemal_dose(light.wavelengths, light.level * self.at(light.wavelengths))
         return float(passed / bare)
+
+
+def require_protection(protection: Protection) -> Protection:
+    """The protection, if it is one and not its factor or name.
+
+    Raises
+    ------
+    InputError
+        If it is anything else.
+    """
+    require_kind("the protection", protection, Protection, "one such as hylios.sunscreen(30) makes")
+    return protection
 
 
 @cache
@@ -162,7 +174,7 @@ def window(glass: str = "window") -> Protection:
     InputError
         If there is no such glass.
     """
-    if glass not in GLASS:
+    if not isinstance(glass, str) or glass not in GLASS:
         raise InputError(f"the glass is {str(glass)[:60]!r}; allowed are {', '.join(GLASS)}.")
     most = GLASS[glass] / (1.0 - 0.5 * 25.0 / 80.0)
     return Protection(np.array([FIRST_NM, 320.0, 345.0, LAST_NM]), np.array([0, 0, most, most]))

@@ -51,7 +51,7 @@ def ground_albedo(name: str) -> float:
     InputError
         If there is no such ground.
     """
-    if name not in GROUNDS:
+    if not isinstance(name, str) or name not in GROUNDS:
         raise InputError(f"the ground is {str(name)[:60]!r}; allowed are {', '.join(GROUNDS)}.")
     return GROUNDS[name].albedo
 

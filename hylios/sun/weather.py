@@ -1,19 +1,21 @@
-"""Doses of the sun under the weather of a file: a year's hours, or forecasts of the UV index."""
+"""Doses of the sun under the weather of a file: a year's hours, or a part of them."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from hylios.errors import InputError
+from hylios.errors import InputError, require_kind
 from hylios.readers.epw import LEAP_YEAR, Weather, epw_of, is_epw
 from hylios.readers.text import lines_of, name_of
 from hylios.readers.uv_forecast import Forecast, forecast_of
 from hylios.spectra import Spectra
-from hylios.sun.action_spectra import SED, USUAL_TANNING, Absorptance
-from hylios.sun.doses import INSTANTS, WATTS_PER_UV_INDEX, Doses, of_sun
+from hylios.sun.action_spectra import USUAL_TANNING, Absorptance
+from hylios.sun.doses import INSTANTS, Doses, of_sun
 from hylios.sun.position import require_day, sun
 from hylios.sun.protection import BARE, Protection
 from hylios.sun.sky import ClearSky
@@ -29,9 +31,6 @@ MOST_RATIO = 1.2
 LEAST_CLEAR = 50.0
 """W/m^2 of a clear sky, below which the ratio says nothing and the cover counts, where there is
 one."""
-
-LONGEST_GAP = 3.0
-"""Hours between two UV indices, beyond which there is night between them."""
 
 
 def read_weather(path: Path) -> Weather | Forecast:
@@ -79,137 +78,138 @@ def of_weather(
         If one is out of range, or the file has no such hour or says neither radiation nor clouds
         of it while the sun is up.
     """
+    light = {"start": start, "sky": sky, "protection": protection}
+    light.update(spectra=spectra, tanning=tanning)
+    doses, untold = _of_day(weather, day, first, last, absorptance, **light)
+    if untold.size:
+        row = weather.rows[day.month, day.day, int(untold[0]) % 24]
+        raise InputError(
+            f"{weather.name} says neither global radiation nor total sky cover in line "
+            f"{weather.lines[row]}; needed is one of them."
+        )
+    return doses
+
+
+def of_days(
+    weather: Weather,
+    days: Sequence[tuple[date, float, float]],
+    absorptance: Absorptance,
+    **light: Any,
+) -> tuple[list[Doses], int]:
+    """Hours of several days, and of how many of these the file says nothing while the sun is up.
+
+    Those are dark.
+
+    Parameters
+    ----------
+    days : sequence of (date, float, float)
+        Days with their first and last hour.
+    weather, absorptance, light
+        As in `of_weather`.
+
+    Raises
+    ------
+    InputError
+        If one is out of range, the file has no such hour, or says neither radiation nor clouds of
+        any of them while the sun is up.
+    """
+    told = [_of_day(weather, *day, absorptance, **light) for day in days]
+    dark = sum(untold.size for _, untold in told)
+    if dark and not any(np.any(doses.erythemal > 0.0) for doses, _ in told):
+        raise InputError(
+            f"{weather.name} says neither global radiation nor total sky cover of any hour with "
+            "sun; needed is one of them."
+        )
+    return [doses for doses, _ in told], dark
+
+
+def _of_day(
+    weather: Weather,
+    day: date,
+    first: float,
+    last: float,
+    absorptance: Absorptance,
+    *,
+    sky: ClearSky | None = None,
+    **light: Any,
+) -> tuple[Doses, NDArray[np.float64]]:
+    """Doses, and the hours among them of which the file says nothing while the sun is up."""
+    require_kind(
+        "the weather", weather, Weather, "that of a file, as hylios.readers.epw.read_epw gives it"
+    )
     doses = of_sun(
         day,
         first,
         last,
         weather.latitude,
         absorptance,
-        start=start,
         longitude=weather.longitude,
         utc_offset=weather.utc_offset,
-        sky=sky or ClearSky(altitude=weather.altitude),
-        protection=protection,
-        spectra=spectra,
-        tanning=tanning,
+        sky=ClearSky(altitude=weather.altitude) if sky is None else sky,
+        **light,
     )
-    hours = np.mod(doses.hours, 24.0).astype(int)
-    factor = np.zeros(hours.size)
-    for place in np.flatnonzero(doses.erythemal > 0.0):
-        factor[place] = ultraviolet_factor(weather, day, int(hours[place]))
-    return replace(
+    lit = doses.erythemal > 0.0
+    factor = np.zeros(lit.size)
+    factor[lit] = ultraviolet_factor(weather, day, np.mod(doses.hours[lit], 24.0).astype(int))
+    untold = np.isnan(factor)
+    factor[untold] = 0.0
+    under = replace(
         doses,
         erythemal=factor * doses.erythemal,
         melanogenesis=factor * doses.melanogenesis,
         thickening=factor * doses.thickening,
         uva=None if doses.uva is None else factor * doses.uva,
     )
+    return under, doses.hours[untold]
 
 
 def days_of(weather: Weather) -> list[tuple[date, float, float]]:
-    """Days of a file with their first and last hour, in the file's order from the year 2001 on.
+    """Days of a file with their first and last hour, in the file's order.
 
-    From 2000 on, a leap year, where the file has a 29 February.
+    From the year 2001 on; where the file has a 29 February, that is of the year 2000.
     """
     hours: dict[tuple[int, int], list[int]] = {}
     for month, day, hour in weather.rows:
         hours.setdefault((month, day), []).append(hour)
-    year = LEAP_YEAR if (2, 29) in hours else LEAP_YEAR + 1
-    days, before = [], (1, 1)
-    for month, day in hours:
-        year += (month, day) < before
-        before = month, day
-        try:
-            whole = date(year, month, day)
-        except ValueError as error:
-            raise InputError(
-                f"{weather.name} has days of more than a year; {year} has no 29 February."
-            ) from error
-        days.append((whole, float(min(hours[before])), max(hours[before]) + 1.0))
-    return days
+    days = list(hours)
+    turns = [after < before for before, after in zip(days, days[1:], strict=False)]
+    new_years = np.cumsum([False, *turns])
+    passed = {day: int(count) for day, count in zip(days, new_years, strict=True)}
+    year = LEAP_YEAR - passed[2, 29] if (2, 29) in passed else LEAP_YEAR + 1
+    return [
+        (date(year + passed[day], *day), float(min(hours[day])), max(hours[day]) + 1.0)
+        for day in days
+    ]
 
 
-def ultraviolet_factor(weather: Weather, day: date, hour: int) -> float:
-    """Share of the clear sky's ultraviolet in an hour of a day, 0 to 23.
+def ultraviolet_factor(weather: Weather, day: date, hours: ArrayLike) -> NDArray[np.float64]:
+    """Share of the clear sky's ultraviolet in hours of a day; nan where the file says nothing.
 
     By the radiation on level ground over that of a clear sky, 1098 cos exp(-.057 / cos) W/m^2
     (Haurwitz, J. Meteorol. 2, 154, 1945); where there is none, by the clouds.
 
+    Parameters
+    ----------
+    hours : (...) int array
+        0 to 23.
+
     Raises
     ------
     InputError
-        If the file has no such hour, or neither.
+        If the file has no such hour.
     """
-    row = weather.rows.get((require_day(day).month, day.day, hour))
-    if row is None:
+    hours = np.asarray(hours, dtype=int)
+    keys = [(require_day(day).month, day.day, int(hour)) for hour in hours.flat]
+    for *_, hour in (key for key in keys if key not in weather.rows):
         raise InputError(
             f"{weather.name} has no row for the hour {hour + 1} of {day.month}/{day.day}."
         )
-    instants = hour + (np.arange(INSTANTS) + 0.5) / INSTANTS
+    rows = np.array([weather.rows[key] for key in keys], dtype=int).reshape(hours.shape)
+    instants = hours[..., None] + (np.arange(INSTANTS) + 0.5) / INSTANTS
     zenith = sun(day, instants, weather.latitude, weather.longitude, weather.utc_offset).zenith
     cosine = np.maximum(np.cos(np.radians(zenith)), 1e-3)
-    clear = float(np.mean(1098.0 * cosine * np.exp(-0.057 / cosine)))
-    radiation, cover = weather.radiation[row], weather.cover[row]
-    if np.isfinite(cover) and (clear < LEAST_CLEAR or not np.isfinite(radiation)):
-        return float(cloud_factor(min(cover, 1.0)))
-    if np.isfinite(radiation):
-        return float(min(radiation / clear, MOST_RATIO) ** EXPONENT)
-    raise InputError(
-        f"{weather.name} says neither global radiation nor total sky cover in line "
-        f"{weather.lines[row]}; needed is one of them."
-    )
-
-
-def of_forecast(
-    forecast: Forecast,
-    begin: float = 0.0,
-    end: float = np.inf,
-    *,
-    start: date | None = None,
-    protection: Protection = BARE,
-) -> Doses:
-    """Doses by hour of UV indices over time, linear between them, taken as SED.
-
-    Two that are more than three hours apart have night between them.
-
-    Parameters
-    ----------
-    begin, end : float
-        Hours since the midnight of the forecast's first day, between which the skin is outside.
-    start : date, optional
-        The day whose midnight is hour 0; the forecast's first by default.
-    protection : Protection, optional
-
-    Raises
-    ------
-    InputError
-        If the start lies after the forecast's first day.
-    """
-    shift = 24.0 * (forecast.day - require_day(start or forecast.day)).days
-    if shift < 0.0:
-        raise InputError(
-            f"the UV indices of {forecast.name} begin on {forecast.day}, before hour 0, midnight "
-            f"of {start}."
-        )
-    times = forecast.hours
-    first, last = max(times[0], begin), min(times[-1], end)
-    if not first < last:
-        return Doses(*(np.zeros(0) for _ in range(4)))
-    edges = np.concatenate([times, np.arange(np.ceil(first), last), [first, last]])
-    edges = np.unique(edges[(edges >= first) & (edges <= last)])
-    index = np.interp(edges, times, forecast.indices)
-    middle = 0.5 * (edges[1:] + edges[:-1])
-    gap = np.diff(times)[np.searchsorted(times, middle) - 1] > LONGEST_GAP
-    sums = np.where(gap, 0.0, 0.5 * (index[1:] + index[:-1]) * np.diff(edges))
-    return _by_hour(np.floor(middle), sums, shift, protection)
-
-
-def _by_hour(
-    hours: NDArray[np.float64], sums: NDArray[np.float64], shift: float, protection: Protection
-) -> Doses:
-    """Doses from hours and the UV index times hours in each of their parts; none where it is 0."""
-    whole, place = np.unique(hours, return_inverse=True)
-    received = np.bincount(place.reshape(-1), sums) * WATTS_PER_UV_INDEX * 3600.0 / SED
-    received = received * protection.of_sunlight()
-    some = received > 0.0
-    return Doses(whole[some] + shift, received[some], received[some], received[some])
+    clear = np.mean(1098.0 * cosine * np.exp(-0.057 / cosine), axis=-1)
+    radiation, cover = weather.radiation[rows], weather.cover[rows]
+    by_cover = np.isfinite(cover) & ((clear < LEAST_CLEAR) | ~np.isfinite(radiation))
+    clouds = cloud_factor(np.clip(np.where(by_cover, cover, 0.0), 0.0, 1.0))
+    return np.where(by_cover, clouds, np.minimum(radiation / clear, MOST_RATIO) ** EXPONENT)

@@ -18,12 +18,19 @@ from hylios.tanning.erythema import Burns, ErythemaDynamics
 from hylios.tanning.exposures import LARGEST_DOSE, LONGEST_HOURS, Exposures
 from hylios.tanning.kinetics import KINETICS, Kinetics
 from hylios.tanning.measured import MeasuredDynamics
-from hylios.tanning.peeling import Peeling, peeled_shares, without_peeled
+from hylios.tanning.peeling import (
+    BLISTERING,
+    Peeling,
+    first_blistering_day,
+    peeled_shares,
+    without_peeled,
+)
 from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
 from hylios.tanning.spread import Spread, spread_of
 from hylios.tanning.tanning_history import TanningHistory
 
 __all__ = [
+    "BLISTERING",
     "KINETICS",
     "LARGEST_DOSE",
     "LONGEST_HOURS",
@@ -40,6 +47,7 @@ __all__ = [
     "Spread",
     "TanningHistory",
     "ThicknessDynamics",
+    "first_blistering_day",
     "hill",
     "minimal_erythema_dose",
     "minimal_melanogenesis_dose",

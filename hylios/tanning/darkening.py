@@ -75,9 +75,11 @@ class ImmediateDarkening:
         Parameters
         ----------
         hours : (E,) array
-            When exposures begin.
+            When exposures begin. `Doses.hours` are the whole hours in which they lie: of a part of
+            one give its own beginning here, and its duration.
         uva : (..., E) array
-            J/cm^2 of UVA in each (`hylios.sun.doses.Doses`). Leading axes are separate histories.
+            J/cm^2 of UVA in each (`Doses.uva` of the sun or of a spectrum). Leading axes are
+            separate histories.
         times : (T,) array
             Hours, whole or not.
         durations : (E,) array or float
@@ -86,8 +88,13 @@ class ImmediateDarkening:
         Raises
         ------
         InputError
-            If the shapes do not fit or a number is out of range.
+            If there is no UVA, the shapes do not fit or a number is out of range.
         """
+        if uva is None:
+            raise InputError(
+                "doses of UVA are None; needed are those of the sun or of a spectrum, since doses "
+                "in SED or by UV index do not say how much UVA is in them."
+            )
         begun, told = as_numbers("hours of exposure", hours), as_numbers("times", times)
         doses, lasting = as_numbers("doses of UVA", uva), as_numbers("durations", durations)
         fits = begun.ndim == told.ndim == 1 and lasting.shape in {(), begun.shape}

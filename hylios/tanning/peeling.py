@@ -19,6 +19,24 @@ TAKEN = (0.0, 0.5, 1.0)
 """Shares of the new melanin of basale, spinosum and granulosum that peel off. ESTIMATE"""
 
 
+BLISTERING = 4.0
+"""MED of a day with more of which skin blisters in life, which the model does not show."""
+
+
+def first_blistering_day(hours: NDArray[np.float64], burns: NDArray[np.float64]) -> float | None:
+    """The first day, from 0, with more than `BLISTERING`; None where there is none.
+
+    Parameters
+    ----------
+    hours, burns : (E,) arrays
+        Hours of exposures and their doses in MED.
+    """
+    days, place = np.unique(np.floor_divide(hours, 24.0), return_inverse=True)
+    sums = np.bincount(place.reshape(-1), burns, minlength=days.size)
+    over = days[sums > BLISTERING * (1.0 + 1e-9)]
+    return float(over[0]) if over.size else None
+
+
 @dataclass(frozen=True)
 class Peeling:
     """When and how widely burnt skin peels. ESTIMATE

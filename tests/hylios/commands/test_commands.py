@@ -151,7 +151,7 @@ def test_tan_prints_every_hour(capsys):
             "/none.csv cannot be read: No such file",
         ),
         ("tan --dose 30", "expected HOUR:SED"),
-        ("tan --dose 0:-3", "a dose is negative"),
+        ("tan --dose 0:-3", "dose is -3 SED; allowed is 0 to"),
         ("tan --dose 0.5:3", "an hour of exposure is"),
         ("tan --dose 0:1 --mmd 0", "MMD is 0 SED"),
         ("tan --hours -1", "number of hours is -1"),

@@ -40,13 +40,14 @@ def test_doses_of_all_kinds_together(capsys, tmp_path):
     lamp.write_text("wavelength_nm,irradiance_w_m2_nm\n297,0\n298,1\n299,0\n")
     rows, notes = run(
         f"dose --mmd 4 --med 2 --dose 90:30 --dose 0:6SED --dose 24:2.5mmd --uv-index 5:10:1 "
+        "--dose 91:1.5MED "
         f"--tanning-action parrish --spectrum 6:{lamp}:200 --sun 2025-06-22:10-11:30 "
         "--sun 2025-06-21:12-13 --latitude 40",
         capsys,
     )
-    assert [int(row["hour"]) for row in rows] == [0, 5, 6, 12, 24, 34, 35, 90]
+    assert [int(row["hour"]) for row in rows] == [0, 5, 6, 12, 24, 34, 35, 90, 91]
     sed = {int(row["hour"]): float(row["melanogenesis_sed"]) for row in rows}
-    assert [sed[hour] for hour in (0, 5, 24, 90)] == pytest.approx([6.0, 9.0, 10.0, 30.0])
+    assert [sed[hour] for hour in (0, 5, 24, 90, 91)] == pytest.approx([6.0, 9.0, 10.0, 30.0, 3.0])
     assert sed[6] == pytest.approx(2.0, rel=1e-2)
     for row in rows:
         assert float(row["mmd_multiple"]) == pytest.approx(float(row["melanogenesis_sed"]) / 4.0)
@@ -55,8 +56,42 @@ def test_doses_of_all_kinds_together(capsys, tmp_path):
 
 
 def test_doses_in_sed_say_nothing_of_estimates(capsys):
-    _, notes = run("dose --dose 0:30 --uv-index 3:5:1", capsys)
+    rows, notes = run("dose --dose 0:3 --uv-index 3:5:1", capsys)
     assert notes == ""
+    assert "uva_j_cm2" not in rows[0]
+
+
+def test_estimates_that_count_are_marked_and_those_that_hardly_do_are_one_line(capsys):
+    """Of options that are given, once; a cloud cover of 0 is none."""
+    command = "dose --sun 2025-06-21:12-13 --latitude 40 --cloud 0"
+    (row,), notes = run(command, capsys)
+    assert notes.startswith("note: of what absorbs in skin it is an ESTIMATE: carboxyhemoglobin")
+    assert notes.count("\n") == 1
+    assert 5.0 < float(row["uva_j_cm2"]) < 25.0
+    more = "--cloud 0.5 --ground snow --glass car --water 1 --spf 30 --sunscreen-amount 1 --upf 5"
+    _, notes = run(f"{command} --altitude 500 {more}", capsys)
+    for part in (
+        "a cloud cover stands for an average",
+        "that snow reflects 0.8 is an ESTIMATE: measured is 0.6 to 0.9",
+        "where a window pane begins",
+        "water other than a metre",
+        "a sunscreen of an SPF lets all",
+        "that a film of sunscreen protects",
+        "cloth of a UPF",
+        "that haze thins out",
+    ):
+        assert notes.count(f"note: {part}") == 1
+    assert run("dose --dose 0:3 --glass window", capsys)[1].count("ESTIMATE") == 1
+
+
+def test_a_day_above_4_med_blisters(capsys):
+    """Two exposures of a day count together, those of two days apart."""
+    for command in ("dose", "tan --hours 30"):
+        _, notes = run(f"{command} --med 2 --dose 1:4 --dose 26:4 --dose 30:4.1", capsys)
+        assert notes == (
+            "note: above 4 MED on day 1: skin blisters in life, which the model does not show\n"
+        )
+        assert run(f"{command} --dose 1:4MED --dose 26:3MED", capsys)[1] == ""
 
 
 def test_an_action_spectrum_of_ones_own(capsys, tmp_path):
@@ -175,10 +210,12 @@ def test_tan_by_multiples(capsys):
     ("arguments", "sentence"),
     [
         ("--dose 30", "a dose is '30'; expected HOUR:SED"),
-        ("--dose 0:30MED", "dose is '30MED'; expected a number"),
+        ("--dose 0:30MET", "dose is '30MET'; expected a number"),
+        ("--dose -1:2", "an hour of exposure is -1; allowed is 0 to 878400"),
+        ("--sun 2025-06-21:10-16 --latitude 40 --altitude -1e9", "altitude is -1e+09 m; allowed"),
         ("--dose 0:MMD", "dose is ''; expected a number"),
         ("--dose x:3", "hour of a dose is 'x'"),
-        ("--dose 0:nanMMD", "a dose is negative, not finite"),
+        ("--dose 0:nanMMD", "dose is nan SED; allowed is 0 to 1e+12 SED"),
         ("--dose 0.5:3", "an hour of exposure is"),
         ("--dose 0:3 --mmd 0", "MMD is 0 SED"),
         ("--dose 0:3 --med nan", "MED is nan SED"),

@@ -42,9 +42,38 @@ def uvi(tmp_path):
     return path
 
 
+@pytest.fixture
+def utc(tmp_path):
+    """As OpenUV has a day in Tokyo: in universal time, 9 hours behind."""
+    path = tmp_path / "utc.json"
+    entries = (
+        f'{{"uv": {uv}, "uv_time": "2026-06-{day}T{hour:02d}:00:00.000Z"}}'
+        for day, hour, uv in ((20, 21, 0), (21, 0, 6), (21, 3, 8), (21, 6, 6), (21, 9, 0))
+    )
+    path.write_text(f'{{"result": [{",".join(entries)}]}}')
+    return path
+
+
+@pytest.fixture
+def tokyo(tmp_path):
+    """The same as OpenWeather has it, which says the place's clock, from midnight on."""
+    path = tmp_path / "tokyo.json"
+    entries = (
+        f'{{"dt": {1781967600 + 10800 * number}, "uvi": {uv}}}'
+        for number, uv in enumerate(("0", "0", "0", "6", "8", "6", "0", "null"))
+    )
+    path.write_text(f'{{"timezone_offset": 32400, "lon": 139.7, "hourly": [{",".join(entries)}]}}')
+    return path
+
+
 def run(arguments, capsys):
+    return notes_of(arguments, capsys)[0]
+
+
+def notes_of(arguments, capsys):
+    """What is printed, and the notes."""
     assert main(arguments.split()) == 0
-    return capsys.readouterr().out
+    return tuple(capsys.readouterr())
 
 
 def rows(text):
@@ -81,6 +110,49 @@ def test_a_forecast_of_the_uv_index(uvi, capsys):
     assert list(early) == [34, 35, 60]
 
 
+def test_hours_outside_are_those_of_the_place(utc, tokyo, capsys):
+    """8 at noon in Tokyo, and 6 three hours before and after."""
+    expected = {10: 0.9 * 7.0, 11: 0.9 * 23.0 / 3.0, 12: 0.9 * 23.0 / 3.0}
+    said = "--sun 2026-06-21:10-13"
+    out, notes = notes_of(f"dose --weather {tokyo} {said}", capsys)
+    assert rows(out) == pytest.approx(expected)
+    assert "1 of 8 UV indices of" in notes and "time zone" not in notes
+    out, notes = notes_of(f"dose --weather {utc} {said} --utc-offset 9", capsys)
+    assert rows(out) == pytest.approx(expected)
+    assert "dark" not in notes and "in UTC" not in notes
+    out, notes = notes_of(f"dose --weather {utc}", capsys)
+    assert sum(rows(out).values()) == pytest.approx(0.9 * 60.0)
+    assert "hours are in UTC: " in notes
+
+
+def test_hours_without_light_are_noted(tokyo, uvi, capsys):
+    """From noon to noon six of day are missing; at night there is no light."""
+    assert "6 hours of day count as dark" in notes_of(f"dose --weather {uvi}", capsys)[1]
+    out, notes = notes_of(f"dose --weather {tokyo} --sun 2026-06-21:0-3", capsys)
+    assert "there is no UV index above 0 on 2026-06-21 from 0 to 3 h in" in notes
+    assert "dark" not in notes and rows(out) == {}
+
+
+def test_an_epw_file_with_gaps_and_a_wrong_clock(epw, tmp_path, capsys):
+    """Noon is at 2 a.m. where a time zone of 7 hours is given for -7; radiation that is there is
+    said to count, an hour with neither is dark."""
+    _, notes = notes_of(f"dose --weather {epw}", capsys)
+    assert "48 of 48 hours of" in notes and "to the power" not in notes
+    assert notes.count("that haze thins out") == 1 and "dark" not in notes
+    other = tmp_path / "odd.epw"
+    text = epw.read_text().replace("-7.0,1650", "7.0,1650")
+    lines = text.splitlines()
+    lines[2] = lines[2].replace(",9999,", ",0,")
+    lines[5] = lines[5].replace(",3,0,3", ",3,99,3")
+    other.write_text("\n".join(lines))
+    out, notes = notes_of(f"dose --weather {other}", capsys)
+    assert "has a time zone of 7 hours and a longitude of -104.65 degrees" in notes
+    assert "which puts noon at 1:59" in notes
+    assert "to the power of .76" in notes
+    assert "1 hour of day counts as dark: " in notes
+    assert rows(out)[3] == 0.0 < rows(out)[2]
+
+
 def test_what_dose_prints_goes_into_tan(epw, tmp_path, capsys, monkeypatch):
     """By a file and by a pipe, as the weather itself."""
     printed = run(f"dose --weather {epw}", capsys)
@@ -101,17 +173,26 @@ def test_what_dose_prints_goes_into_tan(epw, tmp_path, capsys, monkeypatch):
         ("--weather {uvi} --ozone 300", "--ozone is given with --weather"),
         ("--weather {epw} --sun 2026-06-23:10-12", "no row for the hour 11 of 6/23"),
         ("--weather {epw} --start 2026-06-22", "lies before hour 0"),
+        ("--weather {uvi} --weather {epw}", "--weather is given 2 times; allowed is once"),
+        ("--weather {uvi} --utc-offset 2", "sky.csv, whose times are on a place's clock; needed"),
+        ("--weather {uvi} --sun 2026-06-21:12-11", "given from 12 to 11 h; the first must be less"),
+        ("--weather {utc} --sun 2026-06-21:10-12", "which --sun is in; needed is --utc-offset"),
+        ("--weather {utc} --utc-offset 20", "offset from UTC is 20 hours; allowed is -14 to 14"),
+        ("--weather {tokyo} --utc-offset 9", "--utc-offset is given with --weather, whose file"),
         (
             "--weather {uvi} --sun 2026-06-23:10-12",
-            "which has UV indices of 2026-06-21 to 2026-06-22",
+            "sky.csv, which has UV indices from 2026-06-21 10:00 to 2026-06-22 13:00.",
         ),
         ("--weather {uvi} --sun 2026-06-21:10-27", "hour of sun is 27; allowed is 0 to 24"),
         ("--weather /none.epw", "/none.epw cannot be read: No such file"),
         ("--schedule {epw}", "denver.epw cannot be read"),
     ],
 )
-def test_weather_that_cannot_be_used_is_one_sentence(epw, uvi, capsys, arguments, sentence):
-    assert main(["dose", *arguments.format(epw=epw, uvi=uvi).split()]) == 2
+def test_weather_that_cannot_be_used_is_one_sentence(
+    epw, uvi, utc, tokyo, capsys, arguments, sentence
+):
+    files = {"epw": epw, "uvi": uvi, "utc": utc, "tokyo": tokyo}
+    assert main(["dose", *arguments.format(**files).split()]) == 2
     printed = capsys.readouterr()
     assert sentence in printed.err
     assert printed.err.count("\n") == 1

@@ -145,6 +145,68 @@ def test_uv_indices_of_the_environmental_protection_agency():
     assert told.hours.tolist() == [11.0, 12.0]
 
 
+TOKYO = {"lon": 139.7, "timezone": "Asia/Tokyo", "timezone_offset": 32400}
+SET = {"utc_offset_seconds": 7200, "timezone": "Europe/Paris"}
+UNSET = {"longitude": 139.7, "utc_offset_seconds": 0, "timezone": "GMT"}
+LONDON = {"utc_offset_seconds": 0, "timezone": "Europe/London"}
+
+
+@pytest.mark.parametrize(
+    ("place", "times", "first", "offset", "is_local"),
+    [
+        (TOKYO, SECONDS, 19.0, 9.0, True),
+        ({"lat": 35.7}, SECONDS, 10.0, 0.0, False),
+        (UNSET, HOURS, 10.0, 0.0, False),
+        (UNSET, SECONDS, 10.0, 0.0, False),
+        (LONDON, SECONDS, 10.0, 0.0, True),
+        (SET, HOURS, 10.0, 2.0, True),
+        ({}, HOURS, 10.0, None, True),
+        ({}, [f"{hour}+09:30" for hour in HOURS], 10.0, 9.5, True),
+        (SET, [f"{hour}Z" for hour in HOURS], 12.0, 2.0, True),
+        ({}, [f"{hour}Z" for hour in HOURS], 10.0, 0.0, False),
+    ],
+)
+def test_times_are_on_the_clock_of_the_place_where_the_file_says_it(
+    place, times, first, offset, is_local
+):
+    """Open-Meteo and OpenWeather say its offset from UTC; GMT is what Open-Meteo takes for none."""
+    told = forecast(json.dumps({**place, "hourly": {"time": times, "uv_index": UVI}}))
+    assert told.hours == pytest.approx([first, first + 1.0, first + 2.5])
+    assert (told.day, told.utc_offset, told.is_local) == (date(2026, 6, 21), offset, is_local)
+    assert told.longitude == (139.7 if place in (TOKYO, UNSET) else None)
+
+
+def test_universal_times_go_on_a_clock():
+    """22:30 and 23:00 of Friday in Greenwich are 7:30 and 8:00 of Saturday in Tokyo."""
+    told = forecast('[{"dt": 1782081000, "uvi": 1}, {"dt": 1782082800, "uvi": 2}]')
+    assert told.hours.tolist() == [22.5, 23.0] and told.day == date(2026, 6, 21)
+    here = told.on_clock(9.0)
+    assert here.hours.tolist() == [7.5, 8.0] and here.day == date(2026, 6, 22)
+    assert (here.utc_offset, here.is_local) == (9.0, True)
+    with pytest.raises(InputError, match="offset from UTC is 15 hours; allowed is -14 to 14"):
+        told.on_clock(15.0)
+    with pytest.raises(InputError, match="sky.txt, whose times are on a place's clock; needed"):
+        here.on_clock(9.0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        json.dumps({"hourly": {"time": HOURS, "uv_index": [5.0, None, 8.0]}}),
+        json.dumps(
+            [{"dt": SECONDS[0], "uvi": 5}, {"dt": SECONDS[1]}, {"dt": SECONDS[2], "uvi": 8}]
+        ),
+        "time,uv_index\n{},5\n{},\n{},8\n".format(*HOURS),
+        "time;uv_index\n{};5,0\n{};NA\n{};8,0\n".format(*HOURS),
+    ],
+)
+def test_times_without_an_index_are_left_out_and_counted(text):
+    told = forecast(text)
+    assert told.hours == pytest.approx([10.0, 12.5])
+    assert told.indices.tolist() == [5.0, 8.0]
+    assert told.missing == 1
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
@@ -167,7 +229,15 @@ def test_uv_indices_of_the_environmental_protection_agency():
         ('{"hourly": {"time": [1, 2], "uv_index": [3]}}', "has 2 times and 1 UV indices"),
         ('{"hourly": {"time": [1, 2], "uv_index": [3, "x"]}}', "a UV index of 'x' in entry 2"),
         ('{"hourly": {"time": [1, 2], "uv_index": [3, 1e400]}}', "UV index of inf in entry 2"),
-        ('{"hourly": {"time": [true, 2], "uv_index": [3, 4]}}', "has a time of 'True' in entry 1"),
+        ('{"hourly": {"time": [true, 2], "uv_index": [3, 4]}}', "has a time of true in entry 1"),
+        ('{"hourly": {"time": [1, null], "uv_index": [3, 4]}}', "a time of null in entry 2"),
+        ('{"hourly": {"time": [1, 2], "uv_index": [3, null]}}', "has 1 UV indices; needed are two"),
+        ('{"timezone_offset": "+9", "hourly": [{"dt": 1, "uvi": 2}]}', "from UTC of '+9'; allowed"),
+        ('{"utc_offset_seconds": 9e9, "hourly": []}', "allowed is -50400 to 50400 seconds"),
+        (
+            '{"daily": {"time": ["2026-06-21"], "uv_index_max": [8]}}',
+            "has UV indices of whole days",
+        ),
         ('{"hourly": {"time": [1, 2]}}', "has no times and UV indices; expected are lists called"),
         ('{"hourly": {"time": [1, 2],\n"uv', "it is no JSON in line 2"),
         ("[" * 100_000, "cannot be read: "),

@@ -23,9 +23,12 @@ from hylios.sun.action_spectra import (
     thickening_dose,
 )
 from hylios.sun.doses import Doses, joined, of_sed, of_spectrum, of_sun, of_uv_index
+from hylios.sun.forecast import of_forecast
 from hylios.sun.position import sun
 from hylios.sun.protection import clothing, sunscreen, sunscreen_film
 from hylios.sun.sky import ClearSky
+from hylios.sun.surroundings import ground_albedo
+from hylios.sun.weather import of_weather
 
 NM = np.arange(280.0, 401.0)
 SKIN = Absorptance([280.0, 298.0, 340.0, 400.0], [0.95, 0.9, 0.8, 0.7])
@@ -293,6 +296,30 @@ def test_longer_in_the_sun_is_never_less(day, latitude, first, length):
 def test_bad_hours_of_sun_are_named(arguments, sentence):
     with pytest.raises(InputError, match=sentence):
         of_sun(*arguments, SKIN)
+
+
+NOON = SUMMER, 12.0, 13.0, 40.0, SKIN
+
+
+@pytest.mark.parametrize(
+    ("made", "sentence"),
+    [
+        (lambda: of_sun(*NOON, utc_offset=2.0), "offset from UTC is 2.0 without a longitude"),
+        (lambda: of_sun(*NOON, sky="clear"), "the sky is 'clear'; expected a hylios.sun.sky"),  # type: ignore[arg-type]
+        (lambda: of_sun(*NOON, protection="spf"), "the protection is 'spf'; expected one such"),  # type: ignore[arg-type]
+        (lambda: of_sun(*NOON[:4], 0.9), "the absorptance is '0.9'; expected a skin's"),  # type: ignore[arg-type]
+        (lambda: of_sed(0, 1.0, 30), "the protection is '30'; expected one such"),  # type: ignore[arg-type]
+        (lambda: of_uv_index("a", 8, 1), "an hour of exposure is 'a'; expected a number"),  # type: ignore[arg-type]
+        (lambda: of_sed("a", 8), "an hour of exposure is 'a'; expected a number"),  # type: ignore[arg-type]
+        (lambda: of_sed(0, "8"), "dose is '8'; expected a number"),  # type: ignore[arg-type]
+        (lambda: of_weather("w", *NOON[:3], SKIN), "the weather is 'w'; expected that of a file"),  # type: ignore[arg-type]
+        (lambda: of_forecast("w"), "the forecast is 'w'; expected that of a file"),  # type: ignore[arg-type]
+        (lambda: ground_albedo(["snow"]), "the ground is .*; allowed are grass"),  # type: ignore[arg-type]
+    ],
+)
+def test_what_is_of_another_kind_is_one_sentence(made, sentence):
+    with pytest.raises(InputError, match=sentence):
+        made()
 
 
 def test_the_sun_needs_no_numba():

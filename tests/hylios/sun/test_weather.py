@@ -1,21 +1,17 @@
 """Doses under the weather of a file."""
 
-from datetime import date
+from datetime import date, timedelta
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from hylios.errors import InputError
 from hylios.readers.epw import Weather
-from hylios.readers.uv_forecast import Forecast
 from hylios.sun.action_spectra import Absorptance
-from hylios.sun.doses import of_sun, of_uv_index
+from hylios.sun.doses import of_sun
 from hylios.sun.position import sun
-from hylios.sun.protection import clothing
 from hylios.sun.sky import ClearSky
-from hylios.sun.weather import EXPONENT, days_of, of_forecast, of_weather, ultraviolet_factor
+from hylios.sun.weather import EXPONENT, days_of, of_days, of_weather, ultraviolet_factor
 
 SKIN = Absorptance([280.0, 400.0], [0.9, 0.7])
 SUMMER = date(2026, 6, 21)
@@ -101,38 +97,29 @@ def test_days_of_a_file_go_on_into_the_next_year():
     assert days_of(leap) == [(date(2000, 2, 29), 0.0, 1.0)]
 
 
-def forecast(hours, indices):
-    return Forecast("sky.json", SUMMER, np.array(hours, float), np.array(indices, float))
-
-
-def test_an_even_uv_index_is_that_of_its_hours():
-    told = of_forecast(forecast([10.0, 11.0, 12.0, 12.5], [8.0] * 4), protection=clothing(2.0))
-    expected = of_uv_index(10, 8.0, 2.5, clothing(2.0))
-    assert told.hours.tolist() == expected.hours.tolist()
-    assert every(told) == pytest.approx(every(expected))
-
-
-def test_a_uv_index_is_linear_between_times_and_a_night_is_dark():
-    """5 to 7 in an hour is 6; 8 to 17 h of two days, of which the second begins at hour 32."""
-    rise = of_forecast(forecast([10.0, 11.0], [5.0, 7.0]))
-    assert rise.erythemal == pytest.approx([5.4])
-    days = forecast([16.0, 17.0, 32.0, 33.0], [3.0, 2.0, 1.0, 2.0])
-    assert of_forecast(days).hours.tolist() == [16.0, 32.0]
-    outside = of_forecast(days, 16.5, 32.5, start=date(2026, 6, 20))
-    assert outside.hours.tolist() == [40.0, 56.0]
-    assert outside.erythemal == pytest.approx([0.9 * 0.5 * 2.25, 0.9 * 0.5 * 1.25])
-    assert of_forecast(days, 20.0, 24.0).hours.size == 0
-    with pytest.raises(InputError, match="begin on 2026-06-21, before hour 0"):
-        of_forecast(days, start=date(2026, 6, 22))
-
-
-@settings(max_examples=60, deadline=None)
-@given(
-    st.lists(st.tuples(st.floats(0.01, 5.0), st.floats(0.0, 12.0)), min_size=2, max_size=20),
-    st.floats(0.0, 60.0),
+@pytest.mark.parametrize(
+    ("first", "count"),
+    [(date(2003, 7, 1), 366), (date(2003, 12, 1), 122), (date(2004, 1, 1), 366)],
 )
-def test_parts_of_a_forecast_add_up(steps, cut):
-    told = forecast(np.cumsum([step for step, _ in steps]), [index for _, index in steps])
-    whole = of_forecast(told).erythemal.sum()
-    parts = of_forecast(told, 0.0, cut).erythemal.sum(), of_forecast(told, cut).erythemal.sum()
-    assert sum(parts) == pytest.approx(whole, abs=1e-9)
+def test_a_span_with_29_february_begins_in_any_month(first, count):
+    days = [first + timedelta(days=passed) for passed in range(count)]
+    rows = {(day.month, day.day, hour): 0 for day in days for hour in (0, 23)}
+    told = days_of(Weather("x.epw", *DENVER, rows, np.ones(1), np.ones(1), np.zeros(1)))
+    assert told == [(day.replace(year=day.year - 4), 0.0, 24.0) for day in days]
+
+
+def test_hours_of_which_a_file_says_nothing_are_dark_and_counted():
+    """Here 11 and 12 h; at night nothing is needed."""
+    radiation, cover = np.array(CLEAR), np.full(24, np.nan)
+    radiation[[2, 11, 12]] = np.nan
+    some = weather(radiation, cover)
+    (doses,), dark = of_days(some, [(SUMMER, 0.0, 24.0)], SKIN)
+    expected = every(of_weather(weather(CLEAR, cover), SUMMER, 0.0, 24.0, SKIN))
+    assert dark == 2
+    expected[:, [11, 12]] = 0.0
+    assert every(doses) == pytest.approx(expected)
+    with pytest.raises(InputError, match="in line 20; needed is one of them"):
+        of_weather(some, SUMMER, 0.0, 24.0, SKIN)
+    nothing = weather([np.nan] * 24, [np.nan] * 24)
+    with pytest.raises(InputError, match="total sky cover of any hour with sun; needed"):
+        of_days(nothing, [(SUMMER, 10.0, 14.0)], SKIN)

@@ -79,6 +79,7 @@ def test_histories_and_what_is_no_dose():
         (([0], [1.0, 2.0], [1.0]), r"doses of UVA have shape \(2,\) at 1 hours"),
         (([0], [-1.0], [1.0]), "dose of UVA is -1; allowed is 0 to"),
         (([0], [1.0], [-1.0]), "time is -1; allowed is 0 to"),
+        (([0], None, [1.0]), "doses of UVA are None; needed are those of the sun or of a spectrum"),
         (([0], [1.0], [1.0], 0.0), "duration is 0; allowed is 1e-06 to"),
     ):
         with pytest.raises(InputError, match=said):

@@ -17,7 +17,7 @@ NOTES = frozenset(
 )
 """Properties of an object that do not change its look."""
 
-SCHEDULE = frozenset("exposures own_minimal_doses mmd med redness".split())
+SCHEDULE = frozenset("exposures own_minimal_doses mmd med redness darkening".split())
 """Properties that change the history of the skin and nothing else."""
 
 BIOLOGY = "biology"
@@ -26,7 +26,7 @@ BIOLOGY = "biology"
 SKIN = frozenset("skin table_path kinetics".split())
 """Properties that say whose look it is, and in which tans it is at all."""
 
-LATER = frozenset("peeling altitude cloud ground through depth".split())
+LATER = frozenset("peeling darkening altitude cloud ground through depth".split())
 """Properties that came after files held such texts: one that nobody has set is not told, so that a
 tan of before counts as shown."""
 

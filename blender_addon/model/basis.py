@@ -31,7 +31,8 @@ from hylios.sun.doses import Doses
 from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics
 from hylios.tanning.shares import Energies, retained
 
-from .days import STEPS, coordinates_of, hours_to_simulate, states_seen, texel_places
+from .darkening import Uva
+from .days import STEPS, darkened_coordinates, hours_to_simulate, states_seen, texel_places
 from .distinct import distinct
 from .principal import Shapes, principal_shapes
 
@@ -149,6 +150,7 @@ def basis(
     counts: NDArray[np.int_] | None = None,
     precision: BasisPrecision = FULL,
     erythema: ErythemaDynamics | None = None,
+    darkens: bool = False,
 ) -> tuple[Basis, NDArray[np.floating]]:
     """Simulate points of several masks; the basis, and states that some lead through.
 
@@ -158,7 +160,7 @@ def basis(
         On bare skin, by mask: at most `MOST_MASKS`.
     shares : (N, M) array
         0 to 1, of the doses of every mask.
-    melanin, mmd, med, first_day, last_day, erythema
+    melanin, mmd, med, first_day, last_day, erythema, darkens
         As in `history`.
     counts : (N,) int array, optional
         How often the points are there.
@@ -176,8 +178,10 @@ def basis(
     vectors, often, point = distinct(given, energies, exposures.hours, counts=counts, **told_apart)
     few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
     burns = None if erythema is None else Burns.of(exposures, erythema, med)
-    marks = hours_to_simulate(energies, few, exposures, (first, end), precision.rows, 3, burns)
-    curves, states = _simulated(energies, vectors, marks, first, burns)
+    uva = Uva.of(received) if darkens else None
+    rows = precision.rows
+    marks = hours_to_simulate(energies, few, exposures, (first, end), rows, 3, burns, uva)
+    curves, states = _simulated(energies, vectors, marks, first, (burns, uva))
     hours = marks[marks >= first]
     shapes, coefficients, error = _shapes(curves, often, precision)
     places = np.zeros((1, STEPS + 1, 3), np.float32)
@@ -223,17 +227,18 @@ def _simulated(
     vectors: NDArray[np.float64],
     marks: NDArray[np.int_],
     first: int,
-    burns: Burns | None,
+    at_once: tuple[Burns | None, Uva | None],
 ) -> tuple[NDArray[np.float32], NDArray[np.floating]]:
     """u, v and where skin reddens b of points (U, 2 T or 3 T), as they count; states of some."""
-    told = marks >= first
+    told, (burns, uva) = marks >= first, at_once
     numbers = 2 if burns is None else 3
     curves = np.empty((len(vectors), numbers, np.count_nonzero(told)), np.float32)
     kept = np.zeros(0)
     for start in range(0, len(vectors), CHUNK):
         part = vectors[start : start + CHUNK]
         states = states_seen(energies, part, marks, np.float32, burns)[told]
-        seen = WEIGHTS[:numbers] * coordinates_of(states)[..., :numbers]
+        seen = darkened_coordinates(states, uva, part, marks[told])[..., :numbers]
+        seen *= WEIGHTS[:numbers]
         curves[start : start + CHUNK] = np.moveaxis(seen, (1, 2), (0, 1))
         kept = kept if start else states
     return curves.reshape(len(vectors), -1), kept

@@ -7,13 +7,14 @@ from hylios.skin import whole_thickening
 from hylios.tanning import Burns, Exposures
 from hylios.tanning.shares import Energies, states_of_shares
 
+from .darkening import Uva
 from .thinning import by_bend
 
 STEPS = 1024
 """Even steps of the days, and of the shares. A jump is spread over one step of the share."""
 
 AFTER = (1, 2, 4, 6, 9, 12, 16, 20, 26, 36, 48)
-"""Hours after an exposure that are candidates too where skin reddens: it does within the first."""
+"""Hours after an exposure that are candidates too where skin reddens or darkens at once."""
 
 WEIGHTS = np.array([1.0, 1.0, 0.7], np.float32)
 """What errors of u, v and b mean for what is seen."""
@@ -48,6 +49,23 @@ def coordinates_of(states: NDArray[np.floating]) -> NDArray[np.float32]:
     return result
 
 
+def darkened_coordinates(
+    states: NDArray[np.floating], uva: Uva | None, shares: ArrayLike, hours: NDArray[np.int_]
+) -> NDArray[np.float32]:
+    """Coordinates of states (T, S, ...) at hours (T,), with melanin that has darkened at once.
+
+    Parameters
+    ----------
+    uva : Uva or None
+        Without it none has.
+    shares : (S,) or (S, M) array
+    """
+    result = coordinates_of(states)
+    if uva is not None:
+        result[..., 0] += uva.logarithms(shares, hours)
+    return result
+
+
 def hours_to_simulate(
     energies: Energies,
     few: ArrayLike,
@@ -56,6 +74,7 @@ def hours_to_simulate(
     rows: int,
     candidates: int,
     burns: Burns | None = None,
+    uva: Uva | None = None,
 ) -> NDArray[np.int_]:
     """Hours from 0 to the end of a span: dense where some tans bend.
 
@@ -73,6 +92,8 @@ def hours_to_simulate(
         Even hours, over the number of rows, among which rows are picked.
     burns : Burns, optional
         Of skin that reddens.
+    uva : Uva, optional
+        Of skin that darkens at once.
     """
     first, end = span
     begun = _begun(exposures)
@@ -82,14 +103,15 @@ def hours_to_simulate(
         begun, kinks = begun[:0], kinks[:0]
     even = candidates * rows
     closely = np.arange(max(first - REMEMBERED, 0), first)
-    red = kinks[:0] if burns is None else np.unique(np.add.outer(begun, AFTER))
+    is_quick = burns is not None or uva is not None
+    quick = np.unique(np.add.outer(begun, AFTER)) if is_quick else kinks[:0]
     hours = np.unique(
         np.concatenate(
-            [_even(0, first, even), closely, _even(first, end, even), kinks, red[red <= end]]
+            [_even(0, first, even), closely, _even(first, end, even), kinks, quick[quick <= end]]
         )
     )
     states = states_seen(energies, few, hours, np.float32, burns)
-    lines = (WEIGHTS * coordinates_of(states)).reshape(len(hours), -1)
+    lines = (WEIGHTS * darkened_coordinates(states, uva, few, hours)).reshape(len(hours), -1)
     start = int(np.searchsorted(hours, first))
     before = by_bend(hours[: start + 1], lines[: start + 1], rows)
     most = rows - int(np.count_nonzero(kinks >= first))

@@ -18,10 +18,11 @@ from hylios.sun.doses import Doses
 from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics
 from hylios.tanning.shares import Energies, responses_of_shares, retained
 
+from .darkening import Uva
 from .days import (
     STEPS,
     WEIGHTS,
-    coordinates_of,
+    darkened_coordinates,
     hours_to_simulate,
     states_seen,
     texel_places,
@@ -34,8 +35,8 @@ EVEN_STEPS = 64
 MOST_ROWS, MOST_COLUMNS = 160, 128
 """Of an image that stays in a file."""
 
-LONG_RED_ROWS = 320
-"""Most rows of more than two months of skin that reddens for days again and again."""
+LONG_QUICK_ROWS = 320
+"""Most rows of more than two months of skin that reddens or darkens for days again and again."""
 
 TOLERANCE = 0.0045
 """Largest error of u, v and weighted b between rows or columns; .01 is about .07 CIEDE2000."""
@@ -127,6 +128,7 @@ def history(
     last_day: float,
     precision: Precision = FULL,
     erythema: ErythemaDynamics | None = None,
+    darkens: bool = False,
 ) -> tuple[History, NDArray[np.floating]]:
     """Simulate doses from day 0; the history, and states (..., 4 or 5) that it leads through.
 
@@ -143,6 +145,8 @@ def history(
         `FULL` for what stays, `DRAG` for a picture at once.
     erythema : ErythemaDynamics, optional
         How the skin reddens; without it, it does not.
+    darkens : bool
+        Whether melanin darkens at once, where the UVA is known; the states do not tell it.
 
     Raises
     ------
@@ -153,28 +157,36 @@ def history(
     exposures = received.exposures()
     energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
     burns = None if erythema is None else Burns.of(exposures, erythema, med)
+    uva = Uva.of([received]) if darkens else None
     steps = _steps(energies, _shown(exposures, end, HOURS_TO_PEAK), precision, burns)
     few = steps[np.linspace(0, len(steps) - 1, FEW_SHARES + 1).astype(int)[1:]] / STEPS
     rows = precision.rows_within(first, end)
     hours = hours_to_simulate(
-        energies, few, exposures, (first, end), rows, precision.candidates, burns
+        energies, few, exposures, (first, end), rows, precision.candidates, burns, uva
     )
     states = states_seen(energies, steps / STEPS, hours, precision.dtype, burns)
     states, hours = states[hours >= first], hours[hours >= first]
-    values = coordinates_of(states)
+    values = darkened_coordinates(states, uva, steps / STEPS, hours)
     if precision.thinned:
-        is_long_red = burns is not None and end - first > LONG
-        most = LONG_RED_ROWS if is_long_red else MOST_ROWS
+        is_quick = burns is not None or uva is not None
+        most = LONG_QUICK_ROWS if is_quick and end - first > LONG else MOST_ROWS
         kept, columns = _thinned(hours, steps, values, most)
         hours, steps = hours[kept], steps[columns]
         values, states = (lines[kept[:, None], columns] for lines in (values, states))
     else:
         values = _filled(values, rows, precision.columns)
-    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
-    places = np.zeros((1, STEPS + 1, 3), np.float32)
-    places[0, :, 0] = texel_places(np.arange(STEPS + 1), steps, values.shape[1])
-    places[0, :, 1] = texel_places(days, hours, values.shape[0])
+    places = _places(24.0 * np.linspace(first_day, last_day, STEPS + 1), hours, steps, values.shape)
     return History(values, places, first_day, last_day), states
+
+
+def _places(
+    even: NDArray, hours: NDArray[np.int_], steps: NDArray[np.int_], shape: tuple[int, ...]
+) -> NDArray[np.float32]:
+    """Where even steps of the shares and even hours lie in an image of a shape."""
+    places = np.zeros((1, STEPS + 1, 3), np.float32)
+    places[0, :, 0] = texel_places(np.arange(STEPS + 1), steps, shape[1])
+    places[0, :, 1] = texel_places(even, hours, shape[0])
+    return places
 
 
 def _steps(

@@ -10,20 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.sun.doses import Doses
-from hylios.tanning import (
-    ErythemaDynamics,
-    Exposures,
-    Kinetics,
-    peeled_shares,
-    states_at,
-    without_peeled,
-)
+from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics, Peeling, without_peeled
+from hylios.tanning.shares import retained, states_of_shares
 
 COLUMNS, ROWS_A_DAY, MOST_ROWS = 64, 4, 256
 """Shares of the image; rows of a day, and of all days at most."""
 
 STEP = 6.0
 """Hours between two times at which peeling is followed."""
+
+HOURS_BETWEEN = 12
+"""At most between two times at which the tan is simulated."""
 
 SPREAD = NormalDist(0.534, 0.083)
 """Values of the pattern of `scene.peeling_nodes` over skin."""
@@ -75,16 +72,19 @@ def peeling_image(
     whole = received.exposures()
     parts = _centres(COLUMNS)[:, None]
     shares = Exposures(whole.hours, parts * whole.doses, parts * whole.thickening_doses)
+    end = int(np.ceil(hours[-1]))
+    burns = Burns.of(shares, erythema, med).until(end)
+    marks = np.unique(np.concatenate([np.arange(0, end + 1, HOURS_BETWEEN), [end], burns.hours]))
+    energies = retained(whole, melanin, mmd=mmd, med=med, hours=end)
+    states = states_of_shares(energies, parts[:, 0], marks, np.float32)
+    met = states[np.searchsorted(marks, burns.hours)]
+    acting = burns.acting(burns.doses.T, met[..., :3].sum(axis=-1), met[..., 3])
     times = np.arange(0.0, hours[-1] + STEP, STEP)
-    peeled = peeled_shares(shares, melanin, erythema, times=times, mmd=mmd, med=med)
-    states = states_at(shares, melanin, times=hours, mmd=mmd, med=med)
-    cover, left, loose = (
-        np.stack([np.interp(hours, times, column) for column in told.T], axis=1)
-        for told in _followed(peeled.T)
-    )
+    followed = _followed(Peeling().shares(burns, acting, times).T)
+    cover, left, loose = (_at(hours, times, told) for told in followed)
+    taken = _at(hours, marks, _taken(states, melanin))
     inside = np.clip(cover, LEAST_SHARE, 1.0 - LEAST_SHARE)
     threshold = SPREAD.mean - SPREAD.stdev * _normal_quantiles(inside)
-    taken = _taken(states, melanin).T
     return np.stack([threshold, left * taken, loose], axis=-1).astype(np.float32)
 
 
@@ -93,6 +93,11 @@ def _centres(count: int) -> NDArray[np.float64]:
     places = (np.arange(count) + 0.5) / count
     places[0], places[-1] = 0.0, 1.0
     return places
+
+
+def _at(hours: NDArray, times: NDArray, told: NDArray) -> NDArray[np.float64]:
+    """What is told at times (T, S), at hours (H, S)."""
+    return np.stack([np.interp(hours, times, column) for column in told.T], axis=1)
 
 
 def _followed(peeled: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
@@ -113,7 +118,7 @@ def _followed(peeled: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
     return cover, left, loose
 
 
-def _taken(states: NDArray[np.float64], melanin: Kinetics) -> NDArray[np.float64]:
+def _taken(states: NDArray[np.floating], melanin: Kinetics) -> NDArray[np.float64]:
     """Part of the new melanin that a peeled place loses, of states (..., 4)."""
     steady = melanin.steady_state()
     untanned = steady / steady.sum()

@@ -20,13 +20,18 @@ class Response:
     melanin : MelaninDynamics or MeasuredDynamics
     erythema : ErythemaDynamics or None
         None where the skin does not redden.
+    darkens : bool
+        Whether melanin darkens at once in UVA.
     """
 
     melanin: Kinetics
     erythema: ErythemaDynamics | None
+    darkens: bool = False
 
 
-def response_of(table: SkinTable, kinetics: str = "thesis", redness: bool = False) -> Response:
+def response_of(
+    table: SkinTable, kinetics: str = "thesis", redness: bool = False, darkens: bool = False
+) -> Response:
     """How a table's skin responds; it reddens only where the table holds blood.
 
     Raises
@@ -36,7 +41,7 @@ def response_of(table: SkinTable, kinetics: str = "thesis", redness: bool = Fals
     """
     reddens = redness and holds_redness(table)
     erythema = hylios.erythema(skin_of(table.provenance)) if reddens else None
-    return Response(melanin_of(table, kinetics), erythema)
+    return Response(melanin_of(table, kinetics), erythema, darkens)
 
 
 def holds_redness(table: SkinTable) -> bool:

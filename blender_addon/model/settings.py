@@ -121,6 +121,8 @@ class TanSettings:
         Whether the skin reddens after the sun.
     peeling : bool
         Whether burnt skin peels.
+    darkening : bool
+        Whether melanin darkens at once in UVA.
 
     Raises
     ------
@@ -137,6 +139,7 @@ class TanSettings:
     kinetics: str = "thesis"
     redness: bool = False
     peeling: bool = False
+    darkening: bool = False
 
     def __post_init__(self):
         check_days(self.first_day, self.last_day)

@@ -106,7 +106,7 @@ def history_of(settings: TanSettings, precision: Precision = FULL) -> History:
     minimal = settings.minimal_doses(catalogue.provenance(settings.table))
     days = settings.first_day, settings.last_day
     stamp = catalogue.stamp(settings.table)
-    how = settings.kinetics, settings.redness
+    how = settings.kinetics, settings.redness, settings.darkening
     return _history(settings.table, stamp, settings.exposures, minimal, days, how, precision)
 
 
@@ -117,7 +117,7 @@ def _history(
     exposures: tuple[Exposure, ...],
     minimal: MinimalDoses,
     days: tuple[float, float],
-    how: tuple[str, bool],
+    how: tuple[str, bool, bool],
     precision: Precision,
 ) -> History:
     """The history, kept: what changes only the look needs it again."""
@@ -201,6 +201,7 @@ def history_within(
         last_day=days[1],
         precision=precision,
         erythema=response.erythema,
+        darkens=response.darkens,
     )
     _require_held(table, states)
     return over_time
@@ -238,7 +239,7 @@ def basis_of(
         )
         for mask in range(shares.shape[1])
     ]
-    response = response_of(table, settings.kinetics, settings.redness)
+    response = response_of(table, settings.kinetics, settings.redness, settings.darkening)
     made, states = basis(
         by_mask,
         shares,
@@ -250,6 +251,7 @@ def basis_of(
         counts=counts,
         precision=precision,
         erythema=response.erythema,
+        darkens=response.darkens,
     )
     _require_held(table, states)
     return made

@@ -143,6 +143,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
         description="Four to eight days after 3 burn doses and more, skin peels in patches with "
         "loose edges, and loses most of its tan there; that heals in weeks. An estimate",
     )
+    darkening: BoolProperty(
+        name="UVA Darkening",
+        description="Melanin that is there darkens at once in UVA, and pales over two days. Only "
+        "of times given as Sun, whose UVA is known. An estimate",
+    )
     model_scale: FloatProperty(
         name="Model Scale",
         description="How many times life-size the model is: 10 for a body 17 m tall. Light "
@@ -304,6 +309,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
             kinetics=self.kinetics.lower(),
             redness=self.redness,
             peeling=self.peeling,
+            darkening=self.darkening,
         )
 
     def response_numbers(self) -> dict[str, int]:

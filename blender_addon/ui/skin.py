@@ -8,6 +8,7 @@ from hylios.errors import InputError
 
 from ..model import summary
 from ..model.catalogue import FILE
+from ..model.lines import Line
 from ..props import SkinTanSettings, settings_of
 from .lines import draw_lines
 from .masks import draw_mask
@@ -27,6 +28,9 @@ def draw_skin(
     row = layout.row()
     row.prop(settings, "redness")
     row.prop(settings, "peeling")
+    layout.prop(settings, "darkening")
+    if settings.darkening and all(item.unit != "SUN" for item in settings.exposures):
+        draw_lines(layout, (Line("No time is given as Sun:"), Line("its UVA is not known")), "INFO")
     row = layout.row(align=True)
     row.prop(cast(Any, context).scene.skin_tan, "sample", text="")
     row.operator("skin_tan.match_colour")

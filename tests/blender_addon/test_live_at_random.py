@@ -29,7 +29,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(11)
+        kind = self.random.integers(12)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -49,6 +49,9 @@ class Artist:
             settings.kinetics = str(self.random.choice(["MEASURED", "THESIS"]))
         elif kind == 8:
             settings.peeling = not settings.peeling
+        elif kind == 9:
+            settings.darkening = not settings.darkening
+            settings.exposures[0].unit = str(self.random.choice(["SUN", "SED"]))
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 

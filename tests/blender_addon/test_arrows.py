@@ -87,12 +87,3 @@ def test_a_room_imports_only_what_it_may(path):
             assert is_in(name, SUBJECTS[room(path)]), f"{path.name} imports {name}"
         if room(path) in WITHOUT_BLENDER:
             assert not is_in(name, {"bpy", "bpy_extras", "mathutils"})
-
-
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(ADDON).as_posix())
-def test_files_and_functions_are_short(path):
-    text = path.read_text(encoding="utf-8")
-    assert len(text.splitlines()) <= 400
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.FunctionDef):
-            assert node.end_lineno - node.lineno < 60, node.name

@@ -2,7 +2,7 @@
 
 import ast
 import subprocess
-from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
@@ -20,19 +20,40 @@ def sources() -> list[str]:
     return [name for name in listed.split("\0") if name and (ROOT / name).exists()]
 
 
-def names(tree: ast.AST) -> Iterator[tuple[str, int]]:
-    """What a file names (variables, parameters, attributes, functions, classes), with the lines."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Name):
-            yield node.id, node.lineno
-        elif isinstance(node, ast.arg):
-            yield node.arg, node.lineno
-        elif isinstance(node, ast.Attribute):
-            yield node.attr, node.lineno
-        elif isinstance(node, ast.keyword):
-            yield node.arg or "", node.lineno
-        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            yield node.name, node.lineno
+def name_of(node: ast.AST) -> str:
+    """What a node names: a variable, parameter, attribute, function or class."""
+    for kinds, attribute in NAMING:
+        if isinstance(node, kinds):
+            return getattr(node, attribute) or ""
+    return ""
+
+
+FUNCTIONS = ast.FunctionDef, ast.AsyncFunctionDef
+NAMING = (
+    ((ast.Name,), "id"),
+    ((ast.arg, ast.keyword), "arg"),
+    ((ast.Attribute,), "attr"),
+    ((*FUNCTIONS, ast.ClassDef), "name"),
+)
+
+
+@cache
+def faults() -> tuple[list[str], list[str]]:
+    """Names that say nothing, and what is too long."""
+    empty, long = [], []
+    for source in sources():
+        text = (ROOT / source).read_text(encoding="utf-8")
+        lines = len(text.splitlines())
+        if lines > MOST_LINES:
+            long.append(f"{source}: {lines} lines")
+        for node in ast.walk(ast.parse(text)):
+            if (name := name_of(node)) in EMPTY_WORDS:
+                empty.append(f"{source}:{node.lineno}: {name}")
+            if isinstance(node, FUNCTIONS):
+                lines = node.end_lineno - node.lineno + 1
+                if lines > MOST_LINES_OF_A_FUNCTION:
+                    long.append(f"{source}:{node.lineno}: {name} has {lines} lines")
+    return empty, long
 
 
 def test_git_lists_the_files():
@@ -40,25 +61,8 @@ def test_git_lists_the_files():
 
 
 def test_names_say_what_the_thing_is():
-    empty = [
-        f"{source}:{line}: {name}"
-        for source in sources()
-        for name, line in names(ast.parse((ROOT / source).read_text(encoding="utf-8")))
-        if name in EMPTY_WORDS
-    ]
-    assert not empty
+    assert not faults()[0]
 
 
 def test_files_and_functions_are_short():
-    long = []
-    for source in sources():
-        text = (ROOT / source).read_text(encoding="utf-8")
-        lines = len(text.splitlines())
-        if lines > MOST_LINES:
-            long.append(f"{source}: {lines} lines")
-        for node in ast.walk(ast.parse(text)):
-            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-                lines = node.end_lineno - node.lineno + 1
-                if lines > MOST_LINES_OF_A_FUNCTION:
-                    long.append(f"{source}:{node.lineno}: {node.name} has {lines} lines")
-    assert not long
+    assert not faults()[1]

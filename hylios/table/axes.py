@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hylios.errors import InputError
-from hylios.tanning.spread import Spread
+from hylios.tanning.spread import Spread, states_of
 
 STATE_NAMES = ("basale", "spinosum", "granulosum", "thickness", "blood")
 AXIS_UNIT = "natural logarithm of the ratio to the untanned state"
@@ -151,15 +151,7 @@ class LookAxes(_Grid):
         start, across = self._sheets(melanin, thickness)
         moved = np.maximum(spread, 0.0)[..., None] * across
         moved += np.multiply.outer(np.minimum(spread, 0.0), self.aside)
-        shares = self.sheet.untanned * np.exp(start + moved)
-        shares /= shares.sum(axis=-1, keepdims=True)
-        return np.concatenate(
-            [
-                np.exp(melanin)[..., None] * shares,
-                np.exp(np.stack([thickness, blood], axis=-1)),
-            ],
-            axis=-1,
-        )
+        return states_of(self.sheet.untanned, start + moved, melanin, thickness, blood)
 
     def _sheets(self, melanin: np.ndarray, thickness: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Logarithms (..., 3) of layers' shares on the first sheet, and from it to the second."""

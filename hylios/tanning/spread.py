@@ -126,14 +126,7 @@ class Spread:
                 )
             )
         )
-        return np.concatenate(
-            [
-                np.exp(u)[..., None]
-                * shares_at(self.untanned, self.directions, self.log_ratios(u, v)),
-                np.exp(np.stack([v, b], axis=-1)),
-            ],
-            axis=-1,
-        )
+        return states_of(self.untanned, self.logarithms(u, v), u, v, b)
 
 
 @lru_cache(maxsize=32)
@@ -289,9 +282,25 @@ def across(direction: np.ndarray) -> NDArray[np.float64]:
     return np.stack([direction, np.cross(np.full(3, 1.0 / np.sqrt(3.0)), direction)], axis=1)
 
 
-def shares_at(
-    untanned: np.ndarray, directions: np.ndarray, log_ratios: np.ndarray
+def states_of(
+    untanned: np.ndarray,
+    logarithms: np.ndarray,
+    melanin: np.ndarray,
+    thickness: np.ndarray,
+    blood: np.ndarray,
 ) -> NDArray[np.float64]:
-    """Shares (..., 3) of melanin by layer, so far (..., 2) from untanned along two directions."""
-    parts = untanned * np.exp(log_ratios @ directions.T)
-    return parts / parts.sum(axis=-1, keepdims=True)
+    """States (..., 5) of skin whose melanin is spread as told.
+
+    Parameters
+    ----------
+    untanned : (3,) array
+        The layers' shares of melanin in untanned skin.
+    logarithms : (..., 3) array
+        Of the layers' shares over those, but for their mean.
+    melanin, thickness, blood : (...) arrays
+        Natural logarithms of the totals, relative to the untanned skin's.
+    """
+    shares = untanned * np.exp(logarithms)
+    shares /= shares.sum(axis=-1, keepdims=True)
+    totals = np.exp(np.stack([thickness, blood], axis=-1))
+    return np.concatenate([np.exp(melanin)[..., None] * shares, totals], axis=-1)

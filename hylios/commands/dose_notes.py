@@ -109,6 +109,6 @@ def of_blisters(doses: Doses, med: float) -> list[str]:
     if day is None:
         return []
     return [
-        f"above {BLISTERING:g} MED on day {day:g}: skin blisters in life, which the model does not "
-        "show"
+        f"above {BLISTERING:g} MED, first on day {day:g}: skin blisters in life, which the model "
+        "does not show"
     ]

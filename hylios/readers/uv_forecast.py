@@ -37,6 +37,7 @@ LONGITUDES = ("longitude", "lon")
 but what services take for want of one, and of a longitude."""
 
 MOST_OFFSET = 14.0
+FIRST_YEAR, LAST_YEAR = 1900, 2100
 
 TIME = Quantity("time", TIMES, is_text=True)
 INDEX = Quantity("uv_index", INDICES, may_lack=True)
@@ -258,21 +259,35 @@ def _named(held: Any, names: Sequence[str]) -> Any:
 
 
 def _moment(name: str, given: Any, place: str) -> datetime:
-    """A time as ISO 8601 has it, as `Jun/21/2025 06 AM`, or seconds since 1970."""
+    """A time of the years 1900 to 2100."""
+    told = _time(given)
+    if told is None:
+        raise InputError(
+            f"{name} has a time of {_written(given)} in {place}; expected one such as "
+            "2025-06-21T10:00."
+        )
+    if not FIRST_YEAR <= told.year <= LAST_YEAR:
+        raise InputError(
+            f"{name} has a time of {_written(given)} in {place}; allowed are the years "
+            f"{FIRST_YEAR} to {LAST_YEAR}."
+        )
+    return told
+
+
+def _time(given: Any) -> datetime | None:
+    """A time as ISO 8601 has it, as `Jun/21/2025 06 AM`, or seconds since 1970; None if none."""
     if isinstance(given, int | float) and not isinstance(given, bool):
         try:
             return datetime.fromtimestamp(given, UTC)
         except (ValueError, OverflowError, OSError):
-            pass
+            return None
     if isinstance(given, str):
         for read in (datetime.fromisoformat, lambda text: datetime.strptime(text, EPA)):  # noqa: DTZ007
             try:
                 return read(given.strip())
             except ValueError:
                 continue
-    raise InputError(
-        f"{name} has a time of {_written(given)} in {place}; expected one such as 2025-06-21T10:00."
-    )
+    return None
 
 
 EPA = "%b/%d/%Y %I %p"

@@ -225,7 +225,12 @@ def test_times_without_an_index_are_left_out_and_counted(text):
             "time,uv_index\n2026-06-21 10:00,5\n2026-06-21 11:00+02:00,6\n",
             "allowed is one offset from UTC",
         ),
-        ("time,uv_index\n1026-06-21,5\n2026-06-22,5\n", "allowed is a century"),
+        ("time,uv_index\n1901-06-21,5\n2026-06-22,5\n", "allowed is a century"),
+        ("time,uv_index\n1026-06-21,5\n2026-06-22,5\n", "allowed are the years 1900 to 2100"),
+        (
+            '[{"dt": 1, "uvi": 2}, {"dt": 253402300000, "uvi": 3}]',
+            "has a time of '253402300000' in entry 2; allowed are the years",
+        ),
         ('{"hourly": {"time": [1, 2], "uv_index": [3]}}', "has 2 times and 1 UV indices"),
         ('{"hourly": {"time": [1, 2], "uv_index": [3, "x"]}}', "a UV index of 'x' in entry 2"),
         ('{"hourly": {"time": [1, 2], "uv_index": [3, 1e400]}}', "UV index of inf in entry 2"),

@@ -17,7 +17,7 @@ from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
 from lut_builder.jobs.units import Unit
 from lut_builder.lighting import Lighting
-from lut_builder.near_far_fit import fitted, terms
+from lut_builder.near_far_fit import degree_of, fitted, terms
 from lut_builder.own_spectra import described_spectra
 from lut_builder.reachable import choose_axes, within
 from lut_builder.request import ANGLE, ANGLES, WATER, Piece, Request, computed, pieces, wavelengths
@@ -166,8 +166,9 @@ def _near_far_planes(
         (piece for piece in parts if piece.kind == "profile"), key=lambda p: p.wavelength
     )
     light = np.stack([results[piece.name]["light"] for piece in walks], axis=1)
+    degree = degree_of(request.axes, len(request.walked_states))
     walked, wanted = (
-        terms(request.skin, request.axes, states)
+        terms(request.skin, request.axes, states, degree)
         for states in (request.walked_states, request.states)
     )
     error = request.settings.profile_error

@@ -17,7 +17,7 @@ from hylios.transport.simulate import spectrum as walked
 from lut_builder.lighting import Lighting, lighting_of
 from lut_builder.own_spectra import require_own_spectra
 from lut_builder.reachable import by_kinetics, reachable_states
-from lut_builder.request import ANGLE
+from lut_builder.request import ANGLE, WATER
 
 FINE = np.arange(400.0, 701.0, 5.0)
 """Wavelengths in nm of a direct colour without noise."""
@@ -130,7 +130,8 @@ def _checked(
     total = np.empty((FINE.size + len(bands), len(angles), len(specimens)))
     for row, wavelength in zip(total, [*FINE, *bands], strict=True):
         stacks = [Stack.of(specimen, float(wavelength), model) for specimen in specimens]
-        row[:] = solve(stacks, angles).total
+        # with a film beside: its directions make the skin without one more accurate
+        row[:] = solve(stacks, angles, film=(None, WATER)).total[0]
         told(len(specimens) / len(total))
     direct = np.einsum(
         "cw,was->asc", lighting_of(table.provenance).fine_weights(FINE), total[: FINE.size]

@@ -8,6 +8,7 @@ from its neighbours.
 
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
+from math import comb
 
 import numpy as np
 
@@ -22,6 +23,9 @@ DISTANCES = np.geomspace(NEAREST, FARTHEST, 40)
 
 DEGREE = 2
 
+FOR_CUBIC = 4
+"""Walked states for each term of a cubic, from which on polynomials are cubic."""
+
 USUAL, SEEN = 0.1, 0.25
 """Spread that counts as it is, and the power by which light counts more where it is fainter. The
 eye sees how many times brighter, nearly, so the tail of a spread matters beyond what it holds."""
@@ -29,7 +33,7 @@ eye sees how many times brighter, nearly, so the tail of a spread matters beyond
 RIDGE = 0.01
 """Weight of a polynomial's coefficients, for a spread of 1 that is off."""
 
-LEAST_WIDTH, LARGEST_WIDTH = 0.05, 6.0
+LEAST_WIDTH, LARGEST_WIDTH = 0.02, 6.0
 """Limits in mm of what a polynomial makes of the width."""
 
 MOST_ERROR = 1.0
@@ -75,7 +79,13 @@ def design_places(axes: LookAxes, count: int) -> np.ndarray:
     )
 
 
-def terms(skin: Skin, axes: LookAxes, states: np.ndarray) -> np.ndarray:
+def degree_of(axes: LookAxes, walked: int) -> int:
+    """Degree of the polynomials that so many walked states bear."""
+    cubic = comb(sum(len(knots) > 1 for knots in axes.knots) + 3, 3)
+    return 3 if walked >= FOR_CUBIC * cubic else DEGREE
+
+
+def terms(skin: Skin, axes: LookAxes, states: np.ndarray, degree: int = DEGREE) -> np.ndarray:
     """What the polynomials are of, (N, T), at states (N, 5): products of four numbers.
 
     Of melanin it is the square root: light fades fastest with the first of it. It is that of the
@@ -91,8 +101,8 @@ def terms(skin: Skin, axes: LookAxes, states: np.ndarray) -> np.ndarray:
         if span > 0.0:
             numbers.append(2.0 * (place - knots[0]) / span - 1.0)
     columns = [np.ones(len(states))]
-    for degree in range(1, DEGREE + 1):
-        for some in combinations_with_replacement(numbers, degree):
+    for power in range(1, degree + 1):
+        for some in combinations_with_replacement(numbers, power):
             columns.append(np.prod(some, axis=0))
     return np.stack(columns, axis=-1)
 

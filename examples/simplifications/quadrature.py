@@ -1,7 +1,7 @@
 """Chooses the wavelengths that hylios ships: `python -m examples.simplifications.quadrature`.
 
-Writes hylios/quadrature.csv and the components of skin's spectra hylios/lab/skin_spectra.csv, in a
-minute and the same every time.
+Writes hylios/quadrature.csv and the components of skin's spectra hylios/lab/skin_spectra.csv, in
+some minutes and the same every time.
 """
 
 import argparse
@@ -26,11 +26,21 @@ FIRST, LAST = 400.0, 700.0
 
 SKINS = 300
 
+WALKED = 16
+"""Most wavelengths that are chosen for random walks too; more are for the solver alone, which has
+no noise, and for flushed skin too."""
 
-def skin_colours(count: int = SKINS, seed: int = 1) -> Colours:
+FLUSHED = 30.0
+"""Most blood of flushed skin in %."""
+
+WITHOUT_NOISE = 1e9
+"""Rays that stand for a solver without noise; still more bring nothing."""
+
+
+def skin_colours(count: int = SKINS, seed: int = 1, most_blood: float = 5.0) -> Colours:
     """Random skins, none of them among those that anything is measured on."""
     weights = colour.rec709_weights(GRID)
-    light = reflectances(random_skins(count, seed), GRID, whole)
+    light = reflectances(random_skins(count, seed, most_blood), GRID, whole)
     return Colours(GRID, weights, light, metrics(light @ weights.T))
 
 
@@ -80,7 +90,10 @@ def main() -> None:
     skins = skin_colours()
     package = Path(hylios.__file__).parent
     write_components(skins.reflectances, package / "lab" / skin_spectra.TABLE)
-    write(choose(skins, MOST, allowed=allowed)[FEWEST - 1 :], package / TABLE)
+    flushed = skin_colours(most_blood=FLUSHED)
+    made = choose(skins, WALKED, allowed=allowed)[FEWEST - 1 :]
+    made += choose(flushed, MOST, rays=WITHOUT_NOISE, allowed=allowed)[WALKED:]
+    write(made, package / TABLE)
     print(f"wrote {package / TABLE} and {package / 'lab' / skin_spectra.TABLE}")
 
 

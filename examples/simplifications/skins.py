@@ -27,11 +27,11 @@ def measured() -> tuple[list[Specimen], list[Specimen]]:
     ]
 
 
-def random_skins(count: int, seed: int) -> list[Specimen]:
+def random_skins(count: int, seed: int, most_blood: float = 5.0) -> list[Specimen]:
     """Skins drawn at random around S1 to S4, from hardly any melanin to more than S4's.
 
-    What colours skin varies: melanin, its form and place, blood and its oxygenation, the rarer
-    pigments, and thickness.
+    What colours skin varies: melanin, its form and place, blood (up to `most_blood` in %) and its
+    oxygenation, the rarer pigments, and thickness.
     """
     random = np.random.default_rng(seed)
 
@@ -47,7 +47,7 @@ def random_skins(count: int, seed: int) -> list[Specimen]:
         for layer, share in zip(EPIDERMIS, shares, strict=True):
             melanin[f"{layer}_melanosomes"] = float(share * inside)
             melanin[f"{layer}_colloidal_melanin"] = float(share * (1.0 - inside))
-        blood = between(0.2, 5.0)
+        blood = between(0.2, most_blood)
         return replace(
             usual,
             **melanin,

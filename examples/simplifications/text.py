@@ -42,7 +42,9 @@ wide. The chosen wavelengths (`hylios.quadrature`) are those of the
 5 nm grid, and the weights those for each channel, that give the least mean squared CIEDE2000 on
 300 skins drawn at random around S1 to S4, none of which is measured here, with the noise of 1e7
 rays counted as a part of it. Each channel's weights sum to 1, so grey stays that grey. They hold
-for skin; what neither melanin nor blood colours may come out wrong.
+for skin; what neither melanin nor blood colours may come out wrong. More than 16 are for the
+solver, without that noise and for skin with up to 12 times its blood: 18 miss it by .002, 16 by
+.013.
 
 They are less noisy for the same number of rays than 61 even wavelengths: none is spent where the
 eye sees little. With the walk, an even choice of fewer wavelengths buys nothing at the same noise;

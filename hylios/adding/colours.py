@@ -53,7 +53,7 @@ def colours(
     states : (N, 4) or (N, 5) array
         As `hylios.Skin.at` takes them.
     count : int
-        Wavelengths that make the colour, 4 to 16 (`hylios.quadrature.skin_quadrature`).
+        Wavelengths that make the colour, 4 to 20 (`hylios.quadrature.skin_quadrature`).
     bands : sequence of float
         Other wavelengths in nm, 250 to 2500.
     angle, nodes

@@ -15,9 +15,12 @@ from numpy.typing import NDArray
 from hylios.errors import InputError, as_numbers
 from hylios.lab.colour import colour, hats
 from hylios.lab.skin_spectra import reconstruction, shipped_components, unseen
-from hylios.quadrature import MOST, skin_quadrature
+from hylios.quadrature import skin_quadrature
 
 DAYLIGHT, STANDARD_OBSERVER = "D65", "CIE 1931 2 degree"
+
+ENOUGH = 16
+"""Most wavelengths that a lamp is given for its lines; the components tell no more apart."""
 
 AS_RIGHT = 1.2
 """Error of colours that counts as no larger than another: by a fifth."""
@@ -49,7 +52,7 @@ def illuminant_weights(
     Parameters
     ----------
     count : int
-        4 to 16. Lamps of narrow lines need more than daylight does (`enough_wavelengths`).
+        4 to 20. Lamps of narrow lines need more than daylight does (`enough_wavelengths`).
     illuminant
         By name, or wavelengths (N,) in nm, ascending, and power (N,) per wavelength in any unit;
         it is linear between the wavelengths, and none beyond them.
@@ -78,7 +81,7 @@ def enough_wavelengths(
     Returns
     -------
     int
-        `count` to 16; 16 where no number is enough, as for light of few lines.
+        `count` to 16; 16 where no number is enough, as for light of few lines. More than 16 stay.
 
     Raises
     ------
@@ -86,8 +89,8 @@ def enough_wavelengths(
         As `illuminant_weights`.
     """
     allowed = AS_RIGHT * _missed(count, DAYLIGHT, STANDARD_OBSERVER)
-    enough = (n for n in range(count, MOST) if _missed(n, illuminant, observer) <= allowed)
-    return next(enough, MOST)
+    enough = (n for n in range(count, ENOUGH) if _missed(n, illuminant, observer) <= allowed)
+    return next(enough, max(count, ENOUGH))
 
 
 def _missed(count: int, illuminant: Illuminant, observer: str) -> float:

@@ -81,7 +81,7 @@ def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--wavelengths",
         type=int,
-        help="number of wavelengths that make a colour, 4 to 16 "
+        help="number of wavelengths that make a colour, 4 to 20 "
         "(default: the preset's, and more for a lamp whose spectrum has lines)",
     )
     parser.add_argument(

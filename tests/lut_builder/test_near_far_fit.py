@@ -7,7 +7,7 @@ from hylios.burley import burley_share_within
 from hylios.near_far import edge_spread, model_edge_spread
 from hylios.skin.phototypes import phototype
 from hylios.transport.simulate import DISTANCE_EDGES
-from lut_builder.near_far_fit import design_places, fitted, terms
+from lut_builder.near_far_fit import degree_of, design_places, fitted, terms
 from lut_builder.reachable import choose_axes
 
 SKIN = phototype("III").skin
@@ -49,6 +49,21 @@ def test_what_is_smooth_comes_back(axes):
     assert told.near_share == pytest.approx(share, abs=0.03)
     assert told.far_width == pytest.approx(width, rel=0.1)
     assert told.near_share_error.max() < 0.05
+
+
+def test_many_walked_states_tell_what_a_cubic_holds(axes):
+    """Of four numbers it has 35 terms, each of which needs four states."""
+    assert [degree_of(axes, count) for count in (40, 139, 140)] == [2, 2, 3]
+    walked, wanted = axes.states(design_places(axes, 140)), axes.states(design_places(axes, 30))
+    widths, off = (
+        [np.exp(0.5 * terms(SKIN, axes, some)[:, 2] ** 3) for some in (walked, wanted)],
+        [],
+    )
+    for degree in (2, 3):
+        numbers = [terms(SKIN, axes, some, degree) for some in (walked, wanted)]
+        told = fitted(numbers[0], light(np.full(140, 0.4), widths[0]), numbers[1])
+        off.append(np.abs(np.log(told.far_width / widths[1])).max())
+    assert off[1] < 0.05 < off[0] / 2.0
 
 
 def test_the_faint_tail_of_a_spread_counts_as_it_is_seen(axes):

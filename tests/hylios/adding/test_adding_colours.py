@@ -70,7 +70,7 @@ def test_skin_without_absorbers_is_white():
     [
         ({"states": STATES[0]}, r"tanning states have shape \(4,\); expected \(N, 4\)"),
         ({"states": -STATES}, "relative melanin is"),
-        ({"count": 3}, "number of wavelengths is 3; allowed is 4 to 16"),
+        ({"count": 3}, "number of wavelengths is 3; allowed is 4 to 20"),
         ({"bands": [100.0]}, "wavelength 100 nm is outside"),
         ({"angle": 90.0}, "angle of incidence is 90 degrees"),
     ],

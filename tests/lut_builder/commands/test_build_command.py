@@ -120,7 +120,7 @@ def test_the_command_builds_describes_and_checks(tmp_path, capsys):
         ("check {}/none.exr --threads 0", "number of threads is 0"),
         ("build --knots 3,3,3,3,3 -o {}/t.exr", "number of axes is 5; allowed is 1 to 4."),
         ("build --knots 100,100,100 -o {}/t.exr", "number of states is 1e+06; allowed is 1 to"),
-        ("build --wavelengths 3 -o {}/t.exr", "number of wavelengths is 3; allowed is 4 to 16."),
+        ("build --wavelengths 3 -o {}/t.exr", "number of wavelengths is 3; allowed is 4 to 20."),
         ("build --bands , -o {}/t.exr", "a table without the visible has no band"),
         ("build --bands blue -o {}/t.exr", "band is 'blue'; expected a number."),
         ("build --bands visible,200 -o {}/t.exr", "band is 200 nm; allowed is 250 to 2500 nm."),

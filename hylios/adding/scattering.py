@@ -164,11 +164,13 @@ def response(through: Medium, thickness, extinction, kept):
     )
     turned = lower @ vectors
     onwards = (turned * function[:, None, :]) @ turned.swapaxes(1, 2)
-    back = np.linalg.solve(lower.swapaxes(1, 2), vectors * function[:, None, :])
-    unit = np.eye(sums.shape[1])
+    unit, raised = np.eye(sums.shape[1]), lower.swapaxes(1, 2)
     # Y by its transpose, F' A, for it is symmetric: so light that A does not absorb is not lost to
-    # the rounding of F, which grows with grazing nodes
-    alike = np.linalg.inv(unit + back @ (turned.swapaxes(1, 2) @ sums))
+    # the rounding of F, which grows with grazing nodes. F' is divided by the factor of B, and so
+    # both sides are multiplied by that.
+    alike = np.linalg.solve(
+        raised + (vectors * function[:, None, :]) @ (turned.swapaxes(1, 2) @ sums), raised
+    )
     opposite = np.linalg.inv(unit + onwards)
     return (
         through.basis @ (alike - opposite) @ through.inverse,

@@ -6,7 +6,7 @@ import bpy
 
 from hylios.errors import InputError
 
-from . import applied, own_colour, several, timing
+from . import applied, own_colour, peeling, several, timing
 from .model import catalogue, doses
 from .model.curve import curve_of, is_seen
 from .model.film import film_of
@@ -28,7 +28,6 @@ from .scene import (
     mask_nodes,
     masks,
     nodes,
-    peeling,
     recolour,
     regions,
     size,
@@ -84,8 +83,8 @@ def apply_tan(
         made = [*nodes.made_images(skin.group), *made_of_masks(skin.group)]
         timed = timing.key(obj, scene, days, frames, changes)
         regions.show(obj, skin.group, _regions(settings, values), unit, changes)
-        peeling.show(skin.group, obj, unit, changes, is_on=tan.peeling is not None)
-        sampled, told = own_colour.prepare(obj, skin, tan.look, _sampled(tan, obj, unit), changes)
+        sampled = _sampled(tan, obj, unit, peeling.show(obj, skin.group, values, unit, changes))
+        sampled, told = own_colour.prepare(obj, skin, tan.look, sampled, changes)
         replaced = nodes.update(skin.group, sampled, changes)
         shown = mask_nodes.shown_mask(obj, settings.shown_mask(), changes)
         mask_nodes.show(skin.group, shown, changes)
@@ -193,9 +192,10 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
     return obj
 
 
-def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
-    history, look, peeled = tan.history, tan.look, tan.peeling
-    name = f"Skin Tan Peeling {obj.name}"
+def _sampled(
+    tan: Tan, obj: bpy.types.Object, unit: float, peel_image: bpy.types.Image | None
+) -> nodes.Sampled:
+    history, look = tan.history, tan.look
     return nodes.Sampled(
         states=images.packed_image(
             f"Skin Tan States {obj.name}", history.coordinates, is_colour=False
@@ -218,7 +218,7 @@ def _sampled(tan: Tan, obj: bpy.types.Object, unit: float) -> nodes.Sampled:
         first_day=history.first_day,
         last_day=history.last_day,
         scene_unit=unit,
-        peel_image=None if peeled is None else images.packed_image(name, peeled, is_colour=False),
+        peel_image=peel_image,
     )
 
 

@@ -75,10 +75,7 @@ def computed(obj: bpy.types.Object, *, rough: bool = False) -> Computed | None:
     """
     if not has_several(obj):
         return None
-    settings = settings_of(obj)
-    masks = settings.masks()
-    distinct = _distinct(obj)
-    which = [distinct.index(mask) for mask in masks]
+    settings, distinct, which = settings_of(obj), distinct_masks(obj), which_masks(obj)
     if len(distinct) <= MOST_MASKS_READ:
         return basis_over_shares(settings.values(), which, rough=rough)
     if has_images(distinct):
@@ -114,7 +111,7 @@ def show(
     name = f"Skin Tan Mask Shares {obj.name}"
     made_images = [images.packed_image(name, own, is_colour=False) for own in made.images]
     grid = several_nodes.Grid(made_images, made.steps, [float(weight) for weight in told.weights])
-    shown = [shown_mask(obj, mask, changes) for mask in _distinct(obj)]
+    shown = [shown_mask(obj, mask, changes) for mask in distinct_masks(obj)]
     return several.show(obj, group, shapes, several.OverShares(grid, shown), changes)
 
 
@@ -150,7 +147,7 @@ def remarks(
     if isinstance(made, AtPoints):
         said = [*made.said]
     else:
-        said = mask_values.remarks_on_several(obj, _distinct(obj))
+        said = mask_values.remarks_on_several(obj, distinct_masks(obj))
         said += made.texels.said if isinstance(made, AtTexels) else ()
     if made.basis.error > basis.WANTED["most"]:
         said.append(
@@ -160,6 +157,12 @@ def remarks(
     return said
 
 
-def _distinct(obj: bpy.types.Object) -> Sequence[Mask]:
+def distinct_masks(obj: bpy.types.Object) -> Sequence[Mask]:
     """The masks that differ, in the order of the exposures."""
     return list(dict.fromkeys(settings_of(obj).masks()))
+
+
+def which_masks(obj: bpy.types.Object) -> list[int]:
+    """Which of these every exposure that counts has."""
+    distinct = distinct_masks(obj)
+    return [distinct.index(mask) for mask in settings_of(obj).masks()]

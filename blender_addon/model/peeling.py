@@ -1,10 +1,8 @@
 """What peels by day and by share of the dose, as an image. ESTIMATE, as the model's peeling is.
 
-The model says how much of the skin has peeled. Which places these are a pattern says, whose values
-are spread as `SPREAD` has them: a place has peeled where its value is above a threshold.
+The model says how much of the skin has peeled; which places these are, a pattern says
+(`scene.peeling_nodes`).
 """
-
-from statistics import NormalDist
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +20,8 @@ STEP = 6.0
 HOURS_BETWEEN = 12
 """At most between two times at which the tan is simulated."""
 
-SPREAD = NormalDist(0.534, 0.083)
-"""Values of the pattern of `scene.peeling_nodes` over skin."""
-
 LEAST_SHARE = 0.0005
-"""Peeled shares below this, and what is left below it, are none."""
+"""Less of the skin than this has not peeled."""
 
 HEALED = 0.05
 """Of what had peeled, what is left when the next burn begins with whole skin."""
@@ -52,9 +47,9 @@ def peeling_image(
 ) -> NDArray[np.float32]:
     """Peeling of places by days and shares of doses, (rows, columns, 3).
 
-    In red the threshold of the pattern, in green what part of its new melanin a peeled place has
-    lost and not yet regained, in blue how many of the edges are loose. Rows and columns are even;
-    the outer ones tell the ends of the days and of the shares.
+    In red the share of the skin that patches cover, in green what of the new melanin they take on
+    the mean of the skin, in blue how many of their edges are loose. Rows and columns are even; the
+    outer ones tell the ends of the days and of the shares.
 
     Parameters
     ----------
@@ -81,11 +76,9 @@ def peeling_image(
     acting = burns.acting(burns.doses.T, met[..., :3].sum(axis=-1), met[..., 3])
     times = np.arange(0.0, hours[-1] + STEP, STEP)
     followed = _followed(Peeling().shares(burns, acting, times).T)
-    cover, left, loose = (_at(hours, times, told) for told in followed)
+    cover, peeled, loose = (_at(hours, times, told) for told in followed)
     taken = _at(hours, marks, _taken(states, melanin))
-    inside = np.clip(cover, LEAST_SHARE, 1.0 - LEAST_SHARE)
-    threshold = SPREAD.mean - SPREAD.stdev * _normal_quantiles(inside)
-    return np.stack([threshold, left * taken, loose], axis=-1).astype(np.float32)
+    return np.stack([cover, peeled * taken, loose], axis=-1).astype(np.float32)
 
 
 def _centres(count: int) -> NDArray[np.float64]:
@@ -101,21 +94,21 @@ def _at(hours: NDArray, times: NDArray, told: NDArray) -> NDArray[np.float64]:
 
 
 def _followed(peeled: NDArray[np.float64]) -> tuple[NDArray, NDArray, NDArray]:
-    """Of peeled shares (T, S) at even times: where, how much of it is left, how loose edges are.
+    """Of peeled shares (T, S) at even times: what patches cover, the share, how loose edges are.
 
     What has peeled heals everywhere at once, not from its edges.
     """
     day = round(24.0 / STEP)
     risen = np.maximum(peeled - np.pad(peeled, ((day, 0), (0, 0)))[: len(peeled)], 0.0)
-    cover, left, loose = (np.zeros_like(peeled) for _ in range(3))
+    cover, loose = np.zeros_like(peeled), np.zeros_like(peeled)
     where, hanging = np.zeros(peeled.shape[1]), np.zeros(peeled.shape[1])
     for time, share in enumerate(peeled):
         where = np.where(share > HEALED * where, np.maximum(where, share), share)
         some = np.maximum(where, LEAST_SHARE)
         fresh = np.minimum(LOOSE * risen[time] / some, 1.0) * np.minimum(where / FEW, 1.0)
         hanging = np.maximum(hanging * np.exp(-STEP / HANGING), fresh)
-        cover[time], left[time], loose[time] = where, np.minimum(share / some, 1.0), hanging
-    return cover, left, loose
+        cover[time], loose[time] = where, hanging
+    return cover, peeled, loose
 
 
 def _taken(states: NDArray[np.floating], melanin: Kinetics) -> NDArray[np.float64]:
@@ -125,10 +118,3 @@ def _taken(states: NDArray[np.floating], melanin: Kinetics) -> NDArray[np.float6
     total = states[..., :3].sum(axis=-1)
     lost = total - without_peeled(states, untanned, 1.0)[..., :3].sum(axis=-1)
     return np.clip(lost / np.maximum(total - 1.0, 1e-6), 0.0, 1.0)
-
-
-def _normal_quantiles(shares: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where a normal distribution has reached shares."""
-    grid = np.concatenate([np.geomspace(LEAST_SHARE, 0.02, 40), np.linspace(0.02, 0.5, 200)[1:]])
-    grid = np.unique(np.concatenate([grid, 1.0 - grid]))
-    return np.interp(shares, grid, [NormalDist().inv_cdf(share) for share in grid])

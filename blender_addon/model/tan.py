@@ -37,13 +37,10 @@ class Tan:
         Over time and over the share of the dose; knows no optics.
     look : Look
         Over the states of the skin; knows no time.
-    peeling : (rows, columns, 3) array or None
-        What peels, where burnt skin is to (`peeling_image`).
     """
 
     history: History
     look: Look
-    peeling: NDArray[np.float32] | None = None
 
 
 def tan_of(settings: TanSettings, *, rough: bool = False) -> Tan:
@@ -59,7 +56,7 @@ def tan_of(settings: TanSettings, *, rough: bool = False) -> Tan:
     InputError
         If a setting or the table cannot be used.
     """
-    return Tan(history_of(settings), look_of(settings, rough=rough), peeling_of(settings))
+    return Tan(history_of(settings), look_of(settings, rough=rough))
 
 
 def look_of(settings: TanSettings, *, rough: bool = False) -> Look:
@@ -126,8 +123,16 @@ def _history(
     return history_within(table, received, minimal, days, precision, response_of(table, *how))
 
 
-def peeling_of(settings: TanSettings) -> NDArray[np.float32] | None:
+def peeling_of(
+    settings: TanSettings, which: Sequence[int] | None = None
+) -> NDArray[np.float32] | None:
     """What peels of an object's skin (`peeling_image`); None where nothing does.
+
+    Parameters
+    ----------
+    which : sequence of int, optional
+        Mask of every exposure of the settings, where there are several; the image has one above
+        the other then.
 
     Raises
     ------
@@ -136,13 +141,24 @@ def peeling_of(settings: TanSettings) -> NDArray[np.float32] | None:
     """
     if not (settings.peeling and tells_skin(catalogue.table(settings.table))):
         return None
+    which = which or [0] * len(settings.exposures)
+    told = list(zip(settings.exposures, which, strict=True))
+    return np.concatenate(
+        [
+            _peeling_of(settings, tuple(own for own, mask in told if mask == number))
+            for number in range(max(which, default=0) + 1)
+        ]
+    )
+
+
+def _peeling_of(settings: TanSettings, exposures: tuple[Exposure, ...]) -> NDArray[np.float32]:
     minimal = settings.minimal_doses(catalogue.provenance(settings.table))
     days = settings.first_day, settings.last_day
     stamp = catalogue.stamp(settings.table)
-    return _peeling(settings.table, stamp, settings.exposures, minimal, days, settings.kinetics)
+    return _peeling(settings.table, stamp, exposures, minimal, days, settings.kinetics)
 
 
-@functools.lru_cache(maxsize=4)
+@functools.lru_cache(maxsize=16)
 def _peeling(
     path: Path,
     stamp: tuple[int, int],

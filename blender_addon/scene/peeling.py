@@ -5,15 +5,17 @@ makes patches of it, and takes from the state of the skin the melanin that has g
 Its loose edges are white, and stand up where the shader is ours.
 """
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
 import bpy
 
-from . import nodes, peeling_nodes, stand_ins
+from . import nodes, peeling_nodes, several_nodes, stand_ins
 from .changes import Changes
 from .detail import millimetres
-from .plan import Link, Role
+from .mask_nodes import ShownMask
+from .plan import ROLE_KEY, Link, Role
 from .stand_ins import StandIn
 
 FLAKE = (0.62, 0.55, 0.49, 1.0)
@@ -34,11 +36,20 @@ ROLES = {
     "peel_relief": Role("ShaderNodeBump", "Relief of flakes", (2200, -700), {}, {"Strength": 1.0}),
 }
 
+OF_MASKS = {"peel_masks": Role("ShaderNodeGroup", "Peeling of several masks", (-450, -500))}
+
+OF_MASKS_LINKS: tuple[Link, ...] = (
+    ("row", "Value", "peel_masks", "Day"),
+    ("peel_masks", "Peeling", "peel", "Peeling"),
+)
+
+OF_ONE: Link = ("peel_image", "Color", "peel", "Peeling")
+
 LINKS: tuple[Link, ...] = (
     ("column", "Value", "peel_place", "X"),
     ("row", "Value", "peel_place", "Y"),
     ("peel_place", "Vector", "peel_image", "Vector"),
-    ("peel_image", "Color", "peel", "Peeling"),
+    OF_ONE,
     ("peel", "Flakes", "peel_colour", "Factor_Float"),
     ("peel", "Height", "peel_relief", "Height"),
 )
@@ -58,16 +69,25 @@ def is_shown(group: Any) -> bool:
 
 
 def show(
-    group: Any, obj: bpy.types.Object, scene_unit: float, changes: Changes, *, is_on: bool
+    group: Any,
+    obj: bpy.types.Object,
+    image: bpy.types.Image | None,
+    masks: Sequence[ShownMask],
+    scene_unit: float,
+    changes: Changes,
 ) -> None:
-    """Have a tan's group peel, or not; its image is set by `nodes.update`.
+    """Have a tan's group peel, or not; where there is one mask `nodes.update` sets the image.
 
     Parameters
     ----------
+    image : Image or None
+        Without it nothing peels.
+    masks : sequence of ShownMask
+        Several, or none where there is one.
     scene_unit : float
         Length of a scene unit in metres, on a body of life-size.
     """
-    if not is_on:
+    if image is None:
         if is_shown(group):
             changes.may_relink(group)
             changes.at_the_end(partial(_take_out, group))
@@ -82,7 +102,40 @@ def show(
         is_several = any(nodes.of_role(group, "basis"))
         for role, plan in STAND_INS.items():
             stand_ins.put_in(group, role, OF_SEVERAL if role == "peel" and is_several else plan)
+    tree = None
+    if masks:
+        name = f"Skin Tan Peeling Masks {obj.name}"
+        tree = several_nodes.peeling_of_masks(name, image, masks, changes)
+    _show_masks(group, tree, changes)
     set_size(group, obj, scene_unit, changes)
+
+
+def _show_masks(group: Any, tree: Any, changes: Changes) -> None:
+    """Have a group read several masks by a tree, or one mask."""
+    former = list(nodes.of_role(group, "peel_masks"))
+    if tree is None and not former:
+        return
+    changes.may_add_to(group.nodes)
+    changes.may_relink(group)
+    for peel in nodes.of_role(group, "peel"):
+        for link in list(peel.inputs["Peeling"].links):
+            group.links.remove(link)
+    if tree is not None:
+        nodes.new_node(group, "peel_masks", OF_MASKS).node_tree = tree
+        for node in former:
+            changes.set_key(node, ROLE_KEY, "")
+        nodes.link(group, OF_MASKS, OF_MASKS_LINKS)
+    else:
+        nodes.link(group, ("peel_image",), (OF_ONE,))
+    changes.at_the_end(partial(_remove, group, former))
+
+
+def _remove(group: Any, going: Sequence[Any]) -> None:
+    for node in going:
+        tree = node.node_tree
+        group.nodes.remove(node)
+        if tree is not None and tree.users == 0:
+            bpy.data.node_groups.remove(tree)
 
 
 def set_size(group: Any, obj: bpy.types.Object, scene_unit: float, changes: Changes) -> None:
@@ -95,6 +148,7 @@ def set_size(group: Any, obj: bpy.types.Object, scene_unit: float, changes: Chan
 
 
 def _take_out(group: Any) -> None:
+    _remove(group, list(nodes.of_role(group, "peel_masks")))
     stand_ins.take_out(group, STAND_INS, ROLES)
     image = group.pop(nodes.IMAGE_KEYS["peel_image"], None)
     if image is not None and image.users == 0:

@@ -138,6 +138,34 @@ def over_texels(name: str, basis: Basis, palette: Palette) -> bpy.types.NodeTree
     return made.finished(basis, coefficients, share)
 
 
+def peeling_of_masks(
+    name: str, image: bpy.types.Image, masks: Sequence[ShownMask], changes: Changes
+) -> bpy.types.NodeTree:
+    """Nodes that read what peels under several masks: the most of all.
+
+    Parameters
+    ----------
+    image : Image
+        By days and shares of every mask, one mask above the other.
+    """
+    made = _Tree(name, ())
+    sockets = made.tree.interface
+    sockets.new_socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
+    sockets.new_socket("Peeling", in_out="OUTPUT", socket_type="NodeSocketVector")
+    given, end = made.node("NodeGroupInput", ""), made.node("NodeGroupOutput", "")
+    half = 0.5 * len(masks) / image.size[1]
+    some = made.math("MAXIMUM", "First row or later", given.outputs["Day"], half)
+    row = made.math("MINIMUM", "Last row or before", some, 1.0 - half)
+    most = None
+    for number, mask in enumerate(masks):
+        share = mask_nodes.added(made.tree, mask, changes, f"mask_{number}_")
+        y = made.math("MULTIPLY_ADD", "Row", row, 1.0 / len(masks), number / len(masks))
+        told = made.image(image, "Peeling", made.place(share.outputs[0], y))
+        most = told if most is None else made.vector("MAXIMUM", "Most", most, told)
+    made.tree.links.new(most, end.inputs["Peeling"])
+    return made.tree
+
+
 def _texels(made: "_Tree", grid: Grid, shares: Sequence[Any]) -> Iterator[Sequence[Any]]:
     """Three coefficients at a time."""
     steps = grid.steps

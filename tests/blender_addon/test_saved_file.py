@@ -39,6 +39,7 @@ def test_the_render_needs_no_add_on(tmp_path, table_path, view, materials):
     body.skin_tan.skin, body.skin_tan.table_path = "FILE", settings.table_path
     body.skin_tan.exposures.add().dose = 30.0
     body.skin_tan.film, body.skin_tan.own_colour = "OIL", True
+    body.skin_tan.peeling = not materials
     for make in materials:
         body.data.materials.append(make("skin"))
     bare = body.vertex_groups.new(name="Bare")

@@ -208,7 +208,23 @@ def no_longer_by_own_colour(table_path):
 
 
 SCENES = [new, again, shared, without_slots, of_first_version, of_layout_1]
-SLOW = [by_own_colour, no_longer_by_own_colour]
+
+
+def that_peels(table_path):
+    obj = tan_object(table_path)
+    apply(obj)
+    obj.skin_tan.peeling = True
+    return obj
+
+
+def that_no_longer_peels(table_path):
+    obj = that_peels(table_path)
+    apply(obj)
+    obj.skin_tan.peeling = False
+    return obj
+
+
+SLOW = [by_own_colour, no_longer_by_own_colour, that_peels, that_no_longer_peels]
 
 
 @pytest.mark.parametrize(

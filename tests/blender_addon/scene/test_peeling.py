@@ -4,14 +4,23 @@ import bpy
 import numpy as np
 import pytest
 from artist_skins import mixed, wear
-from scenes import add_camera, apply, of_role, pixels, render, tan_group, tan_object, white_world
+from scenes import (
+    add_camera,
+    add_mask,
+    apply,
+    of_role,
+    pixels,
+    render,
+    tan_group,
+    tan_object,
+    white_world,
+)
 from state import state
 from synthetic import MED, colour_of
 from test_own_colour import nodes_of
 from test_regions import add_region, show_emission_of
 
 from blender_addon import live
-from blender_addon.model.peeling import SPREAD
 from blender_addon.model.tan import peeling_of
 from blender_addon.props import settings_of
 from blender_addon.scene import peeling
@@ -30,10 +39,9 @@ def burnt_row(table_path, burn: float = 5.0):
     return obj
 
 
-def shown(folder, day: int) -> np.ndarray:
+def shown(folder, day: int, wide: int = 100) -> np.ndarray:
     """Colours of the squares, (squares, pixels, 3)."""
     bpy.context.scene.frame_set(day)
-    wide = 100
     picture = render(folder / "row.exr", width=wide * len(SHARES), height=wide)
     return np.stack([own.reshape(-1, 3) for own in np.split(picture, len(SHARES), axis=1)])
 
@@ -51,12 +59,12 @@ def test_as_much_is_lighter_as_the_image_says_by_what_it_says(tmp_path, table_pa
     assert seen[0] == pytest.approx(without[0], abs=1e-4)
     row = int((DAY + 0.5) / 30.0 * len(image))
     for square in (1, 2):
-        threshold, part, _ = image[row, min(int(SHARES[square] * 64), 63)]
+        cover, taken, _ = image[row, min(int(SHARES[square] * 64), 63)]
         lighter = seen[square, :, 2] > without[square, :, 2] + 0.004
-        assert lighter.mean() == pytest.approx(1.0 - SPREAD.cdf(threshold), abs=0.07)
+        assert lighter.mean() == pytest.approx(cover, abs=0.07)
         (whole,) = np.unique(without[square].round(4), axis=0)
         melanin = -np.log(whole[2] / colour_of(np.array([1.0, 0, 0, 1.0, 1.0]))[2]) / 0.6
-        left = whole[2] * np.exp(0.6 * part * melanin)
+        left = whole[2] * np.exp(0.6 * taken / cover * melanin)
         assert np.quantile(seen[square, :, 2], 0.98) == pytest.approx(left, abs=0.015)
 
 
@@ -76,6 +84,33 @@ def test_off_leaves_nothing_of_it(table_path):
     apply(obj)
     assert nodes_of(state()) == nodes_of(plain)
     assert len(bpy.data.images) == images
+
+
+def test_every_mask_peels_by_its_own_doses(tmp_path, table_path):
+    """A second sun elsewhere changes nothing; where both fell the larger burn counts."""
+    obj = burnt_row(table_path)
+    add_mask(obj, np.repeat((1.0, 0.0, 0.3), 4), "other")
+    obj.skin_tan.mask_attribute = "sun"
+    more = obj.skin_tan.exposures.add()
+    more.own_mask, more.dose, more.mask.source = True, 5.0 * MED, "other"
+    apply(obj)
+    (link,) = of_role(obj, "peel").inputs["Peeling"].links
+    assert link.from_node == of_role(obj, "peel_masks")
+    image = of_role(obj, "peel_image").image
+    rows = image.size[1] // 2
+    row = DAY * rows // 30  # the day lies between this row and the one before
+    told = pixels(image)[row - 1 : row + 1, :, :3].mean(axis=0)
+    tree = tan_group(obj)
+    end = next(node for node in tree.nodes if node.bl_idname == "NodeGroupOutput")
+    tree.links.new(link.from_socket, end.inputs["Colour"])
+    show_emission_of(obj, "Colour")
+    seen = shown(tmp_path, DAY, wide=4).mean(axis=1)
+    columns = [63, min(int(0.8 * 64), 63), 63]  # the larger of both shares
+    assert seen == pytest.approx(told[columns], abs=0.01)
+    more.own_mask = False
+    apply(obj)
+    assert not [node for node in tree.nodes if node.get("skin_tan_role") == "peel_masks"]
+    assert of_role(obj, "peel").inputs["Peeling"].links[0].from_node == of_role(obj, "peel_image")
 
 
 def test_several_masks_views_and_removal_with_it(table_path):

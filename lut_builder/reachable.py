@@ -160,7 +160,7 @@ def by_kinetics(skin: Skin) -> list[Skin]:
 
 
 def _sheet(skin: Skin) -> Spread:
-    return spread_of(skin.melanin_kinetics, mmd=skin.mmd, med=skin.med)
+    return spread_of(skin.melanin_kinetics, mmd=skin.mmd, med=skin.med, evenly=True)
 
 
 def within(axes: LookAxes, states: np.ndarray) -> LookAxes:

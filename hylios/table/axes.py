@@ -20,6 +20,10 @@ LOOK_AXES = ("melanin", "thickness", "spread", "blood")
 LEAST_APART = 0.01
 """Least distance of the two sheets, in logarithms of shares, across which a state is told."""
 
+ALIKE = 0.003
+"""By how much nearer a state must lie to what spread below 0 tells than to the sheets to be told by
+it, in logarithms of shares: some measured tans of light skin are told by either."""
+
 LARGEST_COORDINATE = 30.0
 """Largest coordinate of a knot: a state 1e13 times the untanned one is no skin's."""
 
@@ -142,7 +146,7 @@ class LookAxes(_Grid):
         back = np.minimum(off @ self.aside, 0.0)
         left = off - spread[..., None] * across, off - np.multiply.outer(back, self.aside)
         nearer = [(one**2).sum(axis=-1) for one in left]
-        spread = np.where(nearer[0] <= nearer[1], spread, back)
+        spread = np.where(nearer[0] <= nearer[1] + ALIKE**2, spread, back)
         return np.stack([melanin, thickness, spread, ratios[..., 4]], axis=-1)
 
     def states(self, coordinates: np.ndarray) -> np.ndarray:

@@ -26,7 +26,7 @@ from hylios.tanning.peeling import (
     without_peeled,
 )
 from hylios.tanning.simulation import hill, simulate, simulate_in_parts, states_at
-from hylios.tanning.spread import Spread, spread_of
+from hylios.tanning.spread import Spread, spread_of, usual_thickness
 from hylios.tanning.tanning_history import TanningHistory
 
 __all__ = [
@@ -56,5 +56,6 @@ __all__ = [
     "simulate_in_parts",
     "spread_of",
     "states_at",
+    "usual_thickness",
     "without_peeled",
 ]

@@ -38,8 +38,15 @@ ALL_IN_ONE = (1.0, 0.0, 0.0)
 DEGREE = 5
 """Degree of the polynomial in melanin and thickness."""
 
-RIDGE = 1e-6
-"""Weight of the polynomial's coefficients against the states' distance, both squared, per state."""
+RIDGE, EVEN_RIDGE = 1e-6, 1e-8
+"""Weight of the polynomial's coefficients against the states' distance, both squared, per state:
+where states weigh alike, and where cells do."""
+
+CELLS = (24, 16)
+"""Cells of melanin and of thickness that weigh alike in an even fit."""
+
+STEPS = 16
+"""Steps of melanin for each of which a usual thickness is told."""
 
 STRIPS = 8
 """Strips of thickness for each of which it is kept how little and how much melanin was reached."""
@@ -130,13 +137,17 @@ class Spread:
 
 
 @lru_cache(maxsize=32)
-def spread_of(dynamics: Kinetics, *, mmd: float, med: float) -> Spread:
+def spread_of(dynamics: Kinetics, *, mmd: float, med: float, evenly: bool = False) -> Spread:
     """The sheet of a kinetics, from some simulated schedules; the same for the same arguments.
 
     Parameters
     ----------
     mmd, med : float
         Minimal melanogenesis and erythema dose in SED.
+    evenly : bool
+        Whether all that states reach of melanin and thickness weighs alike, for a table that is to
+        hold in all of it. Else all times do, and where skin is only for a short time, as in a light
+        tan that still comes, the sheet follows what lies around it.
 
     Raises
     ------
@@ -156,10 +167,35 @@ def spread_of(dynamics: Kinetics, *, mmd: float, med: float) -> Spread:
     u, v = np.log(states[:, :3].sum(axis=1)), np.log(states[:, 3])
     departures = np.log(states[:, :3] / untanned)
     directions = _directions(departures)
-    strips = _strips(u, v)
-    return Spread(
-        untanned, directions, *strips, fitted(powers(u, v, DEGREE), departures @ directions)
+    terms, wanted = powers(u, v, DEGREE), departures @ directions
+    if evenly:
+        coefficients = fitted(terms, wanted, EVEN_RIDGE, _weights(u, v))
+    else:
+        coefficients = fitted(terms, wanted, RIDGE)
+    return Spread(untanned, directions, *_strips(u, v), coefficients)
+
+
+@lru_cache(maxsize=32)
+def usual_thickness(
+    dynamics: Kinetics, *, mmd: float, med: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Melanin (K,), ascending, and the mean thickness (K,) of skin with so much, in logarithms.
+
+    Parameters and errors as in `spread_of`.
+    """
+    states = _reached(dynamics, mmd, med)
+    u, v = np.log(np.maximum(states[:, :3].sum(axis=1), 1.0)), np.log(states[:, 3])
+    most = max(u.max(), LEAST_REACH)
+    place = STEPS * u / most
+    low = np.minimum(place.astype(int), STEPS - 1)
+    part = place - low
+    counts, sums = (
+        np.bincount(low, (1.0 - part) * own, STEPS + 1)
+        + np.bincount(low + 1, part * own, STEPS + 1)
+        for own in (np.ones_like(v), v)
     )
+    held = np.flatnonzero(counts > LEAST_REACH)
+    return most * held / STEPS, sums[held] / counts[held]
 
 
 def _reached(dynamics: Kinetics, mmd: float, med: float) -> np.ndarray:
@@ -239,6 +275,17 @@ def _strips(u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nd
     return thicknesses, least, most
 
 
+def _weights(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Weights (N,) with which all `CELLS` that states lie in weigh alike, 1 in the mean."""
+    places = [
+        np.minimum(count * (own - own.min()) / max(np.ptp(own), LEAST_REACH), count - 1).astype(int)
+        for own, count in zip((u, v), CELLS, strict=True)
+    ]
+    cells = places[0] * CELLS[1] + places[1]
+    weights = 1.0 / np.bincount(cells)[cells]
+    return weights / weights.mean()
+
+
 def powers(first: np.ndarray | float, thickness: np.ndarray | float, degree: int) -> np.ndarray:
     """Products (..., T) of powers of two logarithms (...), up to a degree in all; 0 without sun.
 
@@ -267,10 +314,13 @@ def _pairs(degree: int) -> tuple[tuple[int, int], ...]:
     return tuple((own, other) for own, other in pairs if 0 < own + other <= degree)
 
 
-def fitted(terms: np.ndarray, values: np.ndarray) -> NDArray[np.float64]:
-    """Coefficients (T, ...) with which the terms (N, T) come nearest to values (N, ...)."""
-    normal = terms.T @ terms + RIDGE * len(terms) * np.eye(terms.shape[1])
-    return np.linalg.solve(normal, terms.T @ values)
+def fitted(
+    terms: np.ndarray, values: np.ndarray, ridge: float, weights: np.ndarray | float = 1.0
+) -> NDArray[np.float64]:
+    """Coefficients (T, ...) with which terms (N, T) come nearest to values (N, ...), weighted."""
+    weighted = terms.T * weights
+    normal = weighted @ terms + ridge * len(terms) * np.eye(terms.shape[1])
+    return np.linalg.solve(normal, weighted @ values)
 
 
 TERMS = powers(0.0, 0.0, DEGREE).size

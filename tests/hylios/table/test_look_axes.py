@@ -93,6 +93,17 @@ def test_the_spread_tells_whose_kinetics_a_state_is_of(axes):
     assert moved == pytest.approx(np.tile(-0.3 * axes.aside, (len(back), 1)), abs=1e-9)
 
 
+def test_what_both_kinetics_tell_counts_as_of_the_sheets(axes):
+    """Though the side below 0 tells it as well: as in light skin, where both go one way."""
+    place = np.array([0.3, 0.1, 1.0, 0.0])
+    across = np.log(axes.states(place)[:3] / axes.states(place * [1, 1, 0, 1])[:3])
+    across -= across.mean()
+    alike = replace(axes, aside=-across / np.linalg.norm(across))
+    assert alike.coordinates(alike.states(place)) == pytest.approx(place, abs=1e-6)
+    beyond = np.array([0.3, 0.1, -1.2 * np.linalg.norm(across), 0.0])
+    assert alike.coordinates(alike.states(beyond)) == pytest.approx(beyond, abs=1e-6)
+
+
 def test_states_at_the_knots_have_the_knots_coordinates(axes):
     knots = axes.knot_states()
     assert knots.shape == (4, 2, 3, 3, 5)

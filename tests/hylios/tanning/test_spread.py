@@ -10,7 +10,7 @@ from hylios.errors import InputError
 from hylios.lab.colour import difference
 from hylios.skin.biology import Biology
 from hylios.skin.phototypes import phototype
-from hylios.tanning import Exposures, MelaninDynamics, spread_of, states_at
+from hylios.tanning import Exposures, MelaninDynamics, spread_of, states_at, usual_thickness
 
 MEAN, LARGEST = {"II": 0.004, "III": 0.004, "V": 0.012, "VI": 0.03}, 0.2
 """CIEDE2000 allowed in the mean, and anywhere; the untanned spread would be .5 and 1.2 off."""
@@ -136,3 +136,32 @@ def test_a_layer_without_melanin_has_no_spread():
         spread_of(bare, mmd=4.0, med=3.0)
     with pytest.raises(InputError, match="melanin are dark"):
         spread("III")[1].states("dark", 0.0)
+
+
+def test_an_even_sheet_holds_a_light_tan_that_still_comes():
+    """Of VI: few schedules lead through so little melanin in skin that is thicker already."""
+    skin, sheet = spread("VI")
+    even = spread_of(skin.dynamics, mmd=skin.mmd, med=skin.med, evenly=True)
+    states = skin.states(Exposures([0], [1.1 * skin.mmd]), [72.0, 96.0, 120.0, 144.0])[:, :4]
+    shares = states[:, :3] / states[:, :3].sum(axis=1, keepdims=True)
+    usual, evenly = (
+        np.abs(np.log(told / told.sum(axis=1, keepdims=True) / shares)).max(axis=1)
+        for told in (on_sheet(one, states)[:, :3] for one in (sheet, even))
+    )
+    assert evenly.max() < 0.1 < usual.min()
+
+
+def test_skin_that_gets_no_darker_has_one_usual_thickness():
+    """The mean over the schedules' times, most of which are days without sun."""
+    skin = phototype("I").skin
+    melanin, thickness = usual_thickness(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    assert melanin == pytest.approx([0.0]) and 0.02 < thickness[0] < 0.15
+
+
+def test_the_darkest_tans_are_of_thick_skin_and_faded_ones_of_thin():
+    skin = phototype("VI").skin
+    melanin, thickness = usual_thickness(skin.dynamics, mmd=skin.mmd, med=skin.med)
+    most = spread("VI")[1].thicknesses[-1]
+    assert np.all(np.diff(melanin) > 0.0) and melanin[0] == 0.0
+    assert thickness[0] < 0.2 * most and np.all(thickness < most)
+    assert thickness[-1] > 0.7 * most

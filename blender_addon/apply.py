@@ -210,6 +210,7 @@ def _sampled(
         melanin=look.melanin,
         blood=look.blood,
         thickness=look.thickness,
+        bulge=look.bulge,
         level=look.level,
         near_weight=look.near_weight,
         through=look.through,

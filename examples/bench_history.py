@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from blender_addon.model import basis, catalogue, grid, history
-from blender_addon.model.look import COLOUR
+from blender_addon.model.look_grid import COLOUR
 from hylios.colour_difference import ciede2000, lab
 from hylios.skin import Skin
 from hylios.skin.phototypes import phototype

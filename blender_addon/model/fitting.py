@@ -11,7 +11,7 @@ from hylios.errors import InputError
 from hylios.table import melanin_dynamics
 
 from . import catalogue
-from .look import COLOUR
+from .look_grid import COLOUR
 
 
 def type_colours() -> dict[str, NDArray[np.float64]]:

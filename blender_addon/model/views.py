@@ -11,7 +11,8 @@ from hylios.table import MinimalDoses, SkinTable
 from hylios.tissue.liquids import LIQUIDS
 
 from .layer import let_through
-from .look import NORMAL_ANGLE, grid_of, over_states, roughness_of
+from .look import NORMAL_ANGLE, roughness_of
+from .look_grid import COLOUR, grid_of, over_states
 
 PLANE = "band_reflectance"
 
@@ -74,7 +75,10 @@ def band_look(
         If the table lacks the band, or does not say how its skin makes melanin.
     """
     grid = grid_of(table, minimal, kinetics)
-    bands = grid.planes(table, [PLANE])[PLANE] if PLANE in table.planes else np.empty(0)
+    planes = grid.planes(table, [name for name in (PLANE, COLOUR) if name in table.planes])
+    if COLOUR in planes:  # mixed as the skin's usual look is
+        grid = grid.bulging(planes[COLOUR])
+    bands = grid.thin_and_thick(planes[PLANE]) if PLANE in planes else np.empty(0)
     return BandLook(
         colour=over_states(inside_in_view(table, bands, view)),
         melanin=grid.melanin,

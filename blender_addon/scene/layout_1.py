@@ -9,7 +9,7 @@ from collections.abc import Collection
 from typing import Any
 
 from .changes import Changes
-from .nodes import INPUTS, add_sockets, find_input, find_output, link, new_node, of_role
+from .nodes import INPUTS, add_sockets, complete, find_input, find_output, link, new_node, of_role
 from .plan import INDEX, LAYOUT, LAYOUT_KEY, ROLE_KEY, ROLES, SHADERS
 
 FORMER_ROLES = frozenset(
@@ -33,6 +33,8 @@ def take_over(group: Any, trees: Collection[Any], changes: Changes) -> None:
     What an artist linked stays linked, and what he removed stays away. Nodes that show the group
     are in the trees.
     """
+    if group.get(LAYOUT_KEY) == LAYOUT:
+        _complete_thickness(group, changes)
     if group.get(LAYOUT_KEY) != LAYOUT - 1:
         return
     changes.may_change_sockets(group)
@@ -64,6 +66,16 @@ def take_over(group: Any, trees: Collection[Any], changes: Changes) -> None:
         for output in of_role(group, "output"):
             group.links.new(share.outputs[0], output.inputs["Share"])
     changes.set_key(group, LAYOUT_KEY, LAYOUT)
+
+
+def _complete_thickness(group: Any, changes: Changes) -> None:
+    """Give a group the node by which thick skin's share may bulge, which today's plan had not."""
+    role = "thickness_slope"
+    ends = [node for node in of_role(group, "thickness") if node.bl_idname == "ShaderNodeMath"]
+    if ends and not ends[0].inputs[1].is_linked and not any(of_role(group, role)):
+        changes.may_add_to(group.nodes)
+        changes.may_relink(group)
+        complete(group, [role])
 
 
 def _move_links(group: Any) -> None:

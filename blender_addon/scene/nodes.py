@@ -64,6 +64,9 @@ class Sampled:
     melanin, blood, thickness : pairs of float
         What the ends of the look's images stand for: square root of melanin, logarithms of blood
         and of thickness.
+    bulge : float
+        How the share of thick skin follows the thickness: x being how far this lies from thin to
+        thick, it is x + bulge x (1 - x).
     level : float
         Base colour of a shader over the colour, seen at 8 degrees.
     near_weight : float
@@ -90,6 +93,7 @@ class Sampled:
     melanin: tuple[float, float]
     blood: tuple[float, float]
     thickness: tuple[float, float]
+    bulge: float
     level: float
     near_weight: float
     through: tuple[float, float, float, float]
@@ -342,6 +346,7 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         blood = _between((0.0, 1.0), half, half)
     low, high = (max(weight, 1e-6) for weight in (sampled.near_weight, 1.0 - sampled.near_weight))
     days = (sampled.first_day, sampled.last_day)
+    span = sampled.thickness[1] - sampled.thickness[0]
     # Groups made before `two_lobes` have no link into the factor of `lobes` and `far_scaled`.
     return {
         "column": _between((0.0, 1.0), 0.5 / steps, 1.0 - 0.5 / steps),
@@ -349,6 +354,7 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "look_column": melanin,
         "look_row": blood,
         "thickness": _between(sampled.thickness, 0.0, 1.0),
+        "thickness_slope": {1: -sampled.bulge / span**2, 2: (1.0 + sampled.bulge) / span},
         **dict.fromkeys(("region_column", "own_column"), melanin),
         **dict.fromkeys(("region_row", "own_row"), blood),
         "untanned_place": {"X": _mapped(melanin, 1.0), "Y": _mapped(blood, 0.0)},

@@ -147,6 +147,7 @@ ROLES = {
     "blood": math_role("ADD", "More or less blood", (350, -100)),
     "look_column": math_role("MULTIPLY_ADD", "Melanin to column", (500, 150)),
     "look_row": _range("Blood to row", (500, -100)),
+    "thickness_slope": math_role("MULTIPLY_ADD", "Thin to thick, slope", (350, -350)),
     "thickness": math_role("MULTIPLY_ADD", "Thin to thick", (500, -350)),
     "look_place": Role("ShaderNodeCombineXYZ", "Place in look", (700, 150)),
     "thick_place": vector_role(
@@ -257,7 +258,9 @@ LINKS: tuple[Link, ...] = (
     ("state", "Z", "blood", 0),
     ("more_blood", "Value", "blood", 1),
     ("blood", "Value", "look_row", "Value"),
+    ("state", "Y", "thickness_slope", 0),
     ("state", "Y", "thickness", 0),
+    ("thickness_slope", "Value", "thickness", 1),
     ("look_column", "Value", "look_place", "X"),
     ("look_row", "Result", "look_place", "Y"),
     ("look_place", "Vector", "thick_place", 0),

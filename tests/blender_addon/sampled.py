@@ -40,7 +40,8 @@ def looked_up(look, image: np.ndarray, places: np.ndarray) -> np.ndarray:
         y = 0.5 / rows + (1.0 - 1.0 / rows) * _part(b, look.blood)
         return bilinear(image, x, y)
     y = 0.5 / rows + (0.5 - 1.0 / rows) * _part(b, look.blood)
-    thick = _part(v, look.thickness)[..., None]
+    part = _part(v, look.thickness)[..., None]
+    thick = part + look.bulge * part * (1.0 - part)
     return bilinear(image, x, y) * (1.0 - thick) + bilinear(image, x, 1.0 - y) * thick
 
 

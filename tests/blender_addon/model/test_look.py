@@ -25,7 +25,7 @@ from hylios.adding import spectrum
 from hylios.lab.colour import difference
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin.phototypes import phototype
-from hylios.table import MinimalDoses, melanin_dynamics, minimal_doses, read_table
+from hylios.table import MinimalDoses, melanin_dynamics, minimal_doses, read_table, skin_of
 from hylios.tanning import Exposures, states_at
 
 DOSES = MinimalDoses(mmd=MMD, med=MED)
@@ -84,17 +84,51 @@ def test_shipped_tables_along_their_states(shipped):
     assert np.quantile(error, 0.99) < 0.3
 
 
+@pytest.mark.parametrize(("kinetics", "most"), [("thesis", 0.35), ("measured", 0.2)])
+def test_dark_skin_of_its_usual_thickness_is_shown_aslant(kinetics, most):
+    """Tans of one exposure, at 45 degrees: .58 off by the measured kinetics, which makes melanin
+    while skin is thick, where the angle's images were of thin skin."""
+    table = catalogue.table(catalogue.shipped_path("VI"))
+    own = replace(skin_of(table.provenance), kinetics=kinetics)
+    skin = look(table, minimal_doses(table.provenance), kinetics)
+    doses = own.mmd * np.geomspace(1.05, 8.5, 10)[:, None]
+    states = own.states(Exposures([0], doses), np.arange(0.0, 1440.0, 24.0))[..., :4].reshape(-1, 4)
+    shown = seen_at(skin, places(states), 45)
+    error = difference(shown, table.plane("subsurface_colour_45", states))
+    assert error.mean() < 0.08
+    assert np.quantile(error, 0.99) < most
+
+
+def seen_at(skin, where: np.ndarray, angle: float) -> np.ndarray:
+    """What a shader shows of the light that has been inside, (N, 3)."""
+    colour, bend, bow = (
+        looked_up(skin, image, where) for image in (skin.colour, skin.bend, skin.bow)
+    )
+    x = np.cos(np.radians(8.0)) - np.cos(np.radians(angle))
+    return colour * (skin.level + bend * x + bow * x * x) * let_through(skin.roughness, angle)
+
+
+def test_colour_that_changes_most_in_skin_a_little_thicker(table):
+    """As that of dark skin does: thick skin's share follows, so that no thickness is off."""
+    x = np.linspace(0.0, 1.0, 12)
+    axes = replace(table.axes, knots=(table.axes.knots[0], 0.25 * x, *table.axes.knots[2:]))
+    states = axes.knot_states()
+    states[..., 3] = np.exp(0.25 * (x + 0.6 * x * (1.0 - x)))[:, None, None]
+    curved = replace(table, axes=axes, planes={"subsurface_colour": colour_of(states)})
+    skin = look(curved, DOSES)
+    assert skin.bulge == pytest.approx(0.6, abs=0.05)
+    tans = random_states(table)
+    shown = looked_up(skin, skin.colour, places(tans))
+    assert difference(shown, curved.plane("subsurface_colour", tans)).max() < 0.03
+
+
 def test_base_and_gloss_give_the_table_s_colour_at_all_angles(table):
     skin = look(table, DOSES)
     origin = np.zeros((1, 3))
-    colour, bend, bow = (
-        looked_up(skin, image, origin)[0] for image in (skin.colour, skin.bend, skin.bow)
-    )
+    colour = looked_up(skin, skin.colour, origin)[0]
     for angle, close in ((8, 1e-4), (45, 0.005), (60, 0.013), (70, 0.01)):
         ratio = np.array(BY_ANGLE.get(angle, 1.0))
-        x = np.cos(np.radians(8.0)) - np.cos(np.radians(angle))
-        base = colour * (skin.level + bend * x + bow * x * x)
-        shown = base * let_through(skin.roughness, angle) / colour
+        shown = seen_at(skin, origin, angle)[0] / colour
         assert shown == pytest.approx(np.ones(3) * ratio, rel=close)
 
 

@@ -5,7 +5,7 @@ from functools import partial
 import bpy
 import numpy as np
 import pytest
-from scenes import add_camera, of_role, render, tan_object, white_world
+from scenes import add_camera, of_role, render, tan_group, tan_object, white_world
 from synthetic import ROUGHNESS, UNTANNED_COLOUR
 
 from blender_addon.model.catalogue import shipped_path
@@ -246,3 +246,20 @@ def test_one_gloss_and_two_show_the_same_light(tmp_path, table_path):
             # With 256 samples noise alone is up to .1 in Blender 5.2.
             seen.append(lit(angle, tmp_path, samples=1024))
         assert difference(*seen) < 0.06
+
+
+def test_the_share_of_thick_skin_bulges_in_a_group_of_an_earlier_version_too():
+    """Which had one node for it. Type VI, whose colour changes most in skin a little thicker."""
+    obj = tan_object(shipped_path("VI"))
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    former = of_role(obj, "thickness_slope")
+    slope, start = (former.inputs[number].default_value for number in (1, 2))
+    tan_group(obj).nodes.remove(former)
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    node, end = of_role(obj, "thickness_slope"), of_role(obj, "thickness")
+    assert end.inputs[1].links[0].from_node == node
+    assert node.inputs[0].links[0].from_socket == end.inputs[0].links[0].from_socket
+    assert [node.inputs[number].default_value for number in (1, 2)] == [slope, start]
+    thick = float(read_table(shipped_path("VI")).axes.knots[1][-1])
+    share = [v * (v * slope + start) + end.inputs[2].default_value for v in (0.0, thick / 2, thick)]
+    assert share == pytest.approx([0.0, 0.7, 1.0], abs=0.01)

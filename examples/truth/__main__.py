@@ -11,7 +11,19 @@ from pathlib import Path
 
 from tqdm import tqdm
 
-from examples.truth import albedo, alike, cost, edge, eevee, film, gloss, illuminants, page, slab
+from examples.truth import (
+    albedo,
+    alike,
+    burn,
+    cost,
+    edge,
+    eevee,
+    film,
+    gloss,
+    illuminants,
+    page,
+    slab,
+)
 from examples.truth.outcome import Outcome, table, write_readings, write_rows
 from examples.truth.rendering import rendered
 from hylios.commands.shell import run
@@ -23,6 +35,7 @@ COMPARISONS = {
     "edge": edge,
     "slab": slab,
     "film": film,
+    "burn": burn,
     "illuminants": illuminants,
     "alike": alike,
     "cost": cost,

@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import bpy
 import numpy as np
@@ -19,10 +20,11 @@ from examples.demo import render
 from examples.demo.scene import make_even
 from examples.demo.tan_lines import silence_blender
 from examples.simplifications.light import seconds as processor_time
-from examples.truth.shots import DONE, FRAMES_PER_DAY, LAST_DAY, TANS, Shot
+from examples.truth.shots import DONE, FRAMES_PER_DAY, LAST_DAY, SUNNED, Shot
 from examples.truth.stages import STAGES, plain_material
 from hylios.commands.shell import run
 from hylios.errors import InputError
+from hylios.skin.phototypes import skin_type
 
 PASSES = {
     "diffuse": (("Diffuse Direct", "DiffDir"), ("Diffuse Indirect", "DiffInd")),
@@ -41,7 +43,8 @@ def shot_all(shots: Sequence[Shot], folder: Path) -> Iterator[str]:
     standing, scratch = None, folder / "scratch.exr"
     skin = None
     for shot in shots:
-        stage = (shot.stage, shot.skin, TANS[shot.tan].multiple, shot.angle, shot.thickness)
+        sun = replace(SUNNED[shot.tan], day=0.0)
+        stage = (shot.stage, shot.skin, sun, shot.angle, shot.thickness)
         stage += (shot.table, shot.plain, shot.engine, shot.space, shot.unit, shot.scale)
         stage += (shot.film, shot.model_scale, shot.applied_unit)
         if standing != stage or skin is None:
@@ -64,9 +67,7 @@ def built(shot: Shot) -> bpy.types.Object:
     settings = skin.skin_tan
     settings.skin = "FILE" if shot.table else shot.skin
     settings.table_path, settings.film = shot.table, shot.film
-    settings.kinetics, settings.redness = "THESIS", False
-    exposure = settings.exposures.add()
-    exposure.unit, exposure.day, exposure.multiple = "MMD", 0.0, TANS[shot.tan].multiple
+    _set_sun(settings, shot)
     settings.first_day, settings.last_day = 0.0, LAST_DAY
     settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
     bpy.context.view_layer.objects.active = skin
@@ -81,6 +82,15 @@ def built(shot: Shot) -> bpy.types.Object:
         skin.material_slots[0].material = plain_material()
     _set_up(scene, shot.engine)
     return skin
+
+
+def _set_sun(settings: Any, shot: Shot) -> None:
+    sun, exposure = SUNNED[shot.tan], settings.exposures.add()
+    exposure.day, exposure.unit, exposure.multiple = 0.0, "MMD", sun.multiple
+    settings.kinetics, settings.redness = "THESIS", False
+    if sun.burns:
+        exposure.unit, exposure.dose = "SED", sun.multiple * skin_type(shot.skin).med
+        settings.kinetics, settings.redness = "MEASURED", True
 
 
 def frame_of(day: float) -> int:
@@ -112,7 +122,7 @@ def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
     InputError
         If the group has no such input.
     """
-    bpy.context.scene.frame_set(frame_of(TANS[shot.tan].day))
+    bpy.context.scene.frame_set(frame_of(SUNNED[shot.tan].day))
     if shot.plain:
         return
     tree = skin.material_slots[0].material.node_tree

@@ -7,8 +7,9 @@ from functools import cache
 import numpy as np
 
 from examples.simplifications.edge import crossing
-from examples.truth.shots import TANS
+from examples.truth.shots import SUNNED
 from hylios.adding import solve, spectrum
+from hylios.adding.redness import erythema
 from hylios.quadrature import MOST, skin_quadrature
 from hylios.skin import Skin
 from hylios.skin.phototypes import PHOTOTYPES, skin_type
@@ -40,10 +41,18 @@ def skin(name: str) -> Skin:
 
 
 def specimen(name: str, tan: str, blood: float = 1.0) -> Specimen:
-    """A skin with one of `TANS` and so many times its blood; what is added is arterial."""
-    own, seen = skin(name), TANS[tan]
-    exposures = Exposures([0], [seen.multiple * own.mmd])
-    state = own.states(exposures, [24.0 * seen.day])[0]
+    """A skin with one of `SUNNED` and so many times its blood; what is added is arterial.
+
+    A dermis that reddens does not thicken (`hylios.skin.skin.THICKENED`).
+    """
+    own, seen = skin(name), SUNNED[tan]
+    times = [24.0 * seen.day]
+    if seen.burns:
+        own = replace(own, kinetics="measured", thickening="epidermis")
+        burn = Exposures([0], [seen.multiple * own.med])
+        state = own.states(burn, times, erythema=erythema(own))[0]
+        return own.at([*state[:4], blood * state[4]])
+    state = own.states(Exposures([0], [seen.multiple * own.mmd]), times)[0]
     return own.at([*state[:4], blood])
 
 

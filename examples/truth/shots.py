@@ -7,10 +7,15 @@ TYPES = ("I", "II", "III", "IV", "V", "VI")
 
 @dataclass(frozen=True)
 class Tan:
-    """Sun on day 0, in minimal melanogenesis doses, and the day on which the skin is seen."""
+    """Sun on day 0, in minimal melanogenesis doses, and the day on which the skin is seen.
+
+    With `burns` the dose is in minimal erythema doses, skin reddens, and its melanin is as measured
+    in people, not as in the thesis.
+    """
 
     multiple: float
     day: float
+    burns: bool = False
 
 
 TANS = {
@@ -19,6 +24,10 @@ TANS = {
     "dark": Tan(8.0, 10.0),
     "faded": Tan(8.0, 30.0),
 }
+
+BURNS = {"burnt": Tan(2.0, 1.0, burns=True), "tanned by it": Tan(2.0, 10.0, burns=True)}
+
+SUNNED = {**TANS, **BURNS}
 
 BLOODS = (1.0, 3.0, 8.0)
 """Blood of both dermal layers, as multiples of the untanned skin's; what is added is arterial."""
@@ -41,7 +50,7 @@ class Shot:
     skin : str
         One of the add-on's skins.
     tan : str
-        One of `TANS`.
+        One of `SUNNED`.
     table : str
         File of the skin's table in place of the add-on's own; empty for that.
     blood : float

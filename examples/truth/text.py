@@ -39,11 +39,10 @@ model draws the normal of a facet whatever of it the light sees, and lets no fac
 (beyond 65 degrees its gloss grows where Cycles' is held down by shadowing). What comes from inside
 is right there too, so nothing in the shader's colours can or should make up for it.
 
-**What is left at 0 and 45 degrees** is largest in type VI lightly tanned. A shader looks a tan up
-by how much melanin there is and how thick the skin is; how melanin is spread over the layers
-follows, and in this tan it is spread otherwise (.2 CIEDE2000). Between the four knots of the
-spread the table of VI adds .05 (.16 at most). The other types have .03 to .06 from the table's 8
-wavelengths.
+**What is left at 0 and 45 degrees** is largest in type VI lightly tanned, .1 of what comes from
+inside. A shader mixes colours of thin and of thick skin, and what changes with the angle is that of
+skin as thick as it usually is with so much melanin; in this tan both are farthest off. The other
+types have .02 to .07.
 """
 
 EDGE = """\
@@ -97,6 +96,15 @@ shows it as a coat. What film and surface reflect is read from the glossy passes
 numbers hold what is left without a film, too.
 """
 
+BURN = """\
+## Burnt, and tanned by it
+
+Types III and VI after 2 minimal erythema doses on day 0, seen on days 1 and 10: by the add-on with
+sunburn and with tans as measured in people. The model solves the skin itself, with a dermis that
+fills with blood and does not thicken. A table's dermis thickens with all the rest, so that the
+add-on looks up less blood for it (`hylios.skin.whole_thickening`).
+"""
+
 ILLUMINANTS = """\
 ## Other lamps
 
@@ -135,6 +143,7 @@ SECTIONS = {
     "gloss": GLOSS,
     "slab": SLAB,
     "film": FILM,
+    "burn": BURN,
     "illuminants": ILLUMINANTS,
     "alike": ALIKE,
     "cost": COST,

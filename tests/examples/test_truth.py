@@ -9,7 +9,7 @@ import pytest
 
 import blender_addon
 from examples.demo import render
-from examples.truth import albedo, alike, cycles, gloss, illuminants, model, page
+from examples.truth import albedo, alike, cycles, gloss, illuminants, model, page, shots
 from examples.truth.outcome import Reading, Row, markdown, read_rows, write_rows
 from examples.truth.shots import Shot
 from hylios.errors import InputError
@@ -80,6 +80,14 @@ def test_thicker_slabs_let_less_through():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("name", ["III", "VI"])
+def test_the_model_s_burnt_skin_holds_more_blood_and_its_dermis_is_no_thicker(name):
+    bare, burnt, tanned = (model.specimen(name, tan) for tan in ("untanned", *shots.BURNS))
+    assert burnt.papillary_blood > 3.0 * bare.papillary_blood > 2.0 * tanned.papillary_blood
+    assert tanned.melanin @ tanned.epidermal_thickness > bare.melanin @ bare.epidermal_thickness
+    assert burnt.papillary_thickness == bare.papillary_thickness
+
+
 def test_light_at_two_places_alike_far_from_an_edge_makes_up_all_light():
     places = np.array([-8.0, -0.5, 0.5, 8.0])
     edge = model.lit_edge(model.specimen("III", "untanned"), places, rays=20_000)

@@ -160,6 +160,8 @@ GERMAN = {
     "No tan that can be seen": "Keine sichtbare Bräune",
     "Darkest on day {darkest:.0f},": "Am dunkelsten an Tag {darkest:.0f},",
     "gone by day {gone:.0f}": "weg bis Tag {gone:.0f}",
+    "Peels on days {first:.0f} to {last:.0f}": "Schält sich an Tag {first:.0f} bis {last:.0f}",
+    "Burns too little to peel": "Brennt zu wenig zum Schälen",
     "Burnt on day {day:.0f}": "Verbrannt an Tag {day:.0f}",
     "Burnt on days {first:.0f} to {last:.0f}": "Verbrannt an Tag {first:.0f} bis {last:.0f}",
     "Burnt on days {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}": (

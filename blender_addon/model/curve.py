@@ -16,13 +16,16 @@ from .history import DRAG, History
 from .lines import Line
 from .response import melanin_of
 from .settings import TanSettings
-from .tan import darkest_day, history_of
+from .tan import darkest_day, history_of, peeling_of
 
 POINTS = 367
 """Days at which the curve is computed."""
 
 COLOUR = "total_colour"
 """Plane of a table that says how skin looks, gloss included."""
+
+LOOSE = 0.5
+"""Share of loose edges with which skin peels plainly."""
 
 PLAIN = 0.3
 """Change of L* below which nobody sees a tan."""
@@ -45,6 +48,9 @@ class Curve:
         L* without sun.
     darkest_day : float
         When skin has most melanin.
+    peels : pair of float or None
+        First and last day on which edges of peeling skin are loose; nan where it burns too little
+        to peel, None where it is not to.
     """
 
     days: NDArray[np.float64]
@@ -53,6 +59,7 @@ class Curve:
     redness: NDArray[np.float64]
     untanned: float
     darkest_day: float
+    peels: tuple[float, float] | None = None
 
     @property
     def darkest(self) -> int:
@@ -130,7 +137,21 @@ def _curve(settings: TanSettings, stamp: tuple[int, int]) -> Curve:
         redness=(shown - tan)[1:, 1],
         untanned=float(shown[0, 0]),
         darkest_day=darkest_day(history),
+        peels=_peels(settings),
     )
+
+
+def _peels(settings: TanSettings) -> tuple[float, float] | None:
+    """As in `Curve`, of bare skin."""
+    image = peeling_of(settings)
+    if image is None:
+        return None
+    loose = np.flatnonzero(image[:, -1, 2] >= LOOSE)
+    if not loose.size:
+        return np.nan, np.nan
+    first, last = (loose[[0, -1]] + 0.5) / len(image)
+    span = settings.last_day - settings.first_day
+    return settings.first_day + first * span, settings.first_day + last * span
 
 
 def _of_bare_skin(history: History, days: NDArray) -> NDArray[np.float64]:
@@ -150,7 +171,7 @@ def is_seen(curve: Curve) -> bool:
 
 def words(curve: Curve) -> tuple[str, ...]:
     """Short lines for an artist."""
-    red = _red_words(curve)
+    red = (*_red_words(curve), *_peeling_words(curve))
     if not is_seen(curve):
         return (*red, "No tan that can be seen")
     first = Line("Darkest on day {darkest:.0f},", darkest=curve.darkest_day)
@@ -181,6 +202,16 @@ def _red_words(curve: Curve) -> tuple[str, ...]:
     if round(first) == round(last):
         return (Line("Burnt on day {day:.0f}", day=first),)
     return (Line("Burnt on days {first:.0f} to {last:.0f}", first=first, last=last),)
+
+
+def _peeling_words(curve: Curve) -> tuple[str, ...]:
+    """When skin peels, where it is to."""
+    if curve.peels is None:
+        return ()
+    first, last = curve.peels
+    if np.isnan(first):
+        return (Line("Burns too little to peel"),)
+    return (Line("Peels on days {first:.0f} to {last:.0f}", first=first, last=last),)
 
 
 WIDTH, HEIGHT, STRIP = 240, 200, 36

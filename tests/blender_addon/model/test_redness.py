@@ -191,6 +191,16 @@ def test_history_differs_by_kinetics_and_redness():
     assert history_of(thesis).coordinates is first
 
 
+def test_the_words_say_when_skin_peels():
+    """By the model from day 4 to 8 after the burn, and loose edges a day more."""
+    burnt = replace(SETTINGS, exposures=(replace(SUN, dose=5.0 * SKIN.med),), peeling=True)
+    assert curve.words(curve.curve_of(burnt))[1] == "Peels on days 4 to 9"
+    little = replace(burnt, exposures=(replace(SUN, dose=2.5 * SKIN.med),))
+    assert curve.words(curve.curve_of(little))[1] == "Burns too little to peel"
+    off = replace(burnt, peeling=False)
+    assert not any("eel" in line for line in curve.words(curve.curve_of(off)))
+
+
 def test_doses_that_blister_are_said_by_the_day():
     """The sum of a day counts, and its own minimal dose."""
     half = replace(SUN, dose=2.1 * SKIN.med)

@@ -39,10 +39,10 @@ model draws the normal of a facet whatever of it the light sees, and lets no fac
 (beyond 65 degrees its gloss grows where Cycles' is held down by shadowing). What comes from inside
 is right there too, so nothing in the shader's colours can or should make up for it.
 
-**What is left at 0 and 45 degrees** is largest in type VI lightly tanned, .1 of what comes from
-inside. A shader mixes colours of thin and of thick skin, and what changes with the angle is that of
-skin as thick as it usually is with so much melanin; in this tan both are farthest off. The other
-types have .02 to .07.
+**What is left of the light from inside** at 0 and 45 degrees is .1 at most. In light types that is
+skin with eight times its blood: half comes from the table, half from looking blood up between ten
+rows of an image. In type VI it is the light tan: a shader mixes colours of thin and of thick skin,
+and what changes with the angle is that of skin as thick as it usually is with so much melanin.
 """
 
 EDGE = """\

@@ -41,9 +41,9 @@ def colour_factor(
     Linear Rec.709 under D65, of light that has been inside the skin.
 
     Over the six types and their tans a table's colours times this are off the region solved by
-    itself by CIEDE2000 .36 or less in the mean of every region, by either kinetics; by the measured
-    one freckles are off by .55. Type VI is worst, by 1.3: where more melanin lies is a guess, here
-    in proportion to the skin's, in the table as in a tan.
+    itself by CIEDE2000 .41 or less in the mean of every region, by either kinetics. Freckles of
+    type VI are worst, by 1.9: where more melanin lies is a guess, here in proportion to the skin's,
+    in the table as in a tan.
 
     Parameters
     ----------

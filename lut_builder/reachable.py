@@ -14,6 +14,7 @@ from hylios.adding import spectra
 from hylios.errors import InputError
 from hylios.history import history_of_shares, require_last_day
 from hylios.skin import Skin, whole_thickening
+from hylios.skin.regions import region
 from hylios.skin.skin import MOST_BLOOD
 from hylios.table import LookAxes
 from hylios.tanning import KINETICS, ErythemaDynamics, Exposures, Spread, spread_of
@@ -41,6 +42,10 @@ LEAST_MELANIN = -6.0
 
 FRECKLE = 2.5
 """Melanin of a freckle relative to the skin's around it. ESTIMATE."""
+
+DEEP = 0.8
+"""Part of the logarithm of the most melanin of the measured kinetics which is a deep tan: what is
+more takes years of sun without a pause."""
 
 SEEN_NM = (450.0, 550.0, 650.0)
 """Wavelengths by whose lightness melanin's knots are placed."""
@@ -203,13 +208,13 @@ def _spread_knots(spread: np.ndarray, count: int) -> np.ndarray:
 def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np.ndarray:
     """Knots of melanin, one of them 0; `highest` is the most that sunshine brings about.
 
-    By the thesis's kinetics: the measured one reaches further in light skin alone, after more than
-    people bear, to where freckles lie.
+    Closely by the thesis's kinetics: the measured one reaches further in light skin alone, after
+    more than people bear, to where freckles lie.
     """
     if count == 1:
         return np.zeros(1)
     tanned = highest + MARGIN
-    low, high = LEAST_MELANIN, highest + np.log(FRECKLE) + MARGIN
+    low, high = LEAST_MELANIN, max(highest + np.log(FRECKLE), _measured_freckle(axes)) + MARGIN
     if count == 2:
         return np.array([0.0, high])
     places = np.linspace(low, high, PLACES)
@@ -230,6 +235,13 @@ def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np
     )
     before, after = (np.interp(mark, length, places) for mark in marks)
     return np.concatenate([before, [0.0], after])
+
+
+def _measured_freckle(axes: LookAxes) -> float:
+    """Logarithm of the melanin of a freckle in a deep tan of the measured kinetics."""
+    freckle = region("freckles", 0.0)
+    tan = DEEP * float(axes.measured.most.max())
+    return float(np.log(freckle.of_state(tan, 0.0)[0]))
 
 
 def _lightness(skin: Skin, axes: LookAxes, melanin: np.ndarray) -> np.ndarray:

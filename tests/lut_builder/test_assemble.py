@@ -185,4 +185,4 @@ def test_a_colour_beyond_rec709_has_no_negative_channel():
     yellow = replace(SPECIMENS["S1"], epidermis_beta_carotene=10.0)
     table = from_stored(to_stored(build(Skin.of(yellow), replace(COLOURS, colour_wavelengths=8))))
     assert table.planes["subsurface_colour"][..., 2].min() == 0.0
-    assert table.planes["subsurface_colour"][..., :2].min() > 0.02
+    assert table.planes["subsurface_colour"][..., :2].min() > 0.0

@@ -37,8 +37,8 @@ whether it was made for that alone."""
 def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: Changes) -> bool:
     """Multiply what arrives at colour inputs of a tree by a tan's Ratio.
 
-    Nodes of ours that lost the group are given this one. `note_links` is to follow. Returns whether
-    a colour is animated: its keys and drivers go to the node that multiplies it.
+    Nodes of ours that lost the group are given this one. Returns whether a colour is animated: its
+    keys and drivers go to the node that multiplies it.
     """
     changes.may_add_to(tree.nodes)
     changes.may_relink(tree)
@@ -55,7 +55,9 @@ def insert(tree: Any, ends: Iterable[Any], group: bpy.types.NodeTree, changes: C
         if not factor.inputs[1].is_linked:
             tree.links.new(ratio, factor.inputs[1])
     fresh = [end for end in ends if not is_recoloured(end)]
-    return any([_put_factor(tree, end, ratio, changes) for end in fresh])
+    moved = [_put_factor(tree, end, ratio, changes) for end in fresh]
+    note_links(tree, changes)
+    return any(moved)
 
 
 def note_links(tree: Any, changes: Changes) -> None:

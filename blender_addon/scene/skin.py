@@ -71,10 +71,10 @@ class Skin:
         self._repoint(self._chain, changes)
         said = [f"Updated {names(self._copies.get(block, block) for block in updated)}."]
         said = said if updated else []
-        if self.fresh:
-            said += self._replace(changes) if self.replacing else self._recolour(changes)
         for tree in self.trees():
             recolour.note_links(tree, changes)
+        if self.fresh:
+            said += self._replace(changes) if self.replacing else self._recolour(changes)
         self._fill_slots(changes)
         if self.own is not None:
             said.append(self._put_own(changes))

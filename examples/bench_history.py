@@ -44,15 +44,8 @@ def main() -> None:
     for masks in MASKS:
         received = [joined(_doses(random, EXPOSURES_OF_MASK, DAYS, skin)) for _ in range(masks)]
         shares = _soft_masks(random, masks)
-        for name, over_shares, of_points in (
-            ("Apply", grid.FULL_GRID, basis.FULL),
-            ("dragging", grid.DRAG_GRID, basis.DRAG),
-        ):
-            told = skin, received, shares, f"{name}, {masks} masks"
-            if masks <= grid.MOST_MASKS_READ:
-                _report_grid(random, *told, over_shares)
-            else:
-                _report_basis(random, *told, of_points)
+        for name, precision in (("Apply", basis.FULL), ("dragging", basis.DRAG)):
+            _report_basis(random, skin, received, shares, f"{name}, {masks} masks", precision)
 
 
 def _report_history(random, skin: Skin, received: Doses, days: int, name: str, precision) -> None:
@@ -78,40 +71,19 @@ def _report_basis(
     span = {"first_day": 0.0, "last_day": float(DAYS), "mmd": skin.mmd, "med": skin.med}
 
     def work():
-        return basis.basis(received, shares, skin.dynamics, precision=precision, **span)[0]
+        made = basis.basis(received, skin.dynamics, precision=precision, **span)[0]
+        return made, grid.images_of(made.coefficients), grid.places_among(made.knots)
 
-    made, milliseconds = _timed(work)
-    hours = random.integers(0, 24 * DAYS, PLACES)
-    for where, faces, weights in _places(random):
-        held = np.einsum("nk,nkr->nr", weights, made.coefficients[faces])
-        between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
-        seen = basis.shown(made, held, hours / 24.0)
-        errors = _errors(skin, seen, received, between, hours)
-        _print(f"{name}, {where}", milliseconds, errors, f"rank {made.rank}")
-
-
-def _report_grid(
-    random, skin: Skin, received: Sequence[Doses], shares: NDArray, name: str, precision
-) -> None:
-    span = {"first_day": 0.0, "last_day": float(DAYS), "mmd": skin.mmd, "med": skin.med}
-    masks = len(received)
-    steps = precision.steps[masks]
-
-    def work():
-        given = grid.shares_of_grid(masks, steps)
-        told = {"counts": grid.counts_of_grid(given), "precision": precision.basis}
-        made = basis.basis(received, given, skin.dynamics, **told, **span)[0]
-        return made, grid.images_of(made.coefficients, masks, steps)
-
-    (made, images), milliseconds = _timed(work)
+    (made, images, places), milliseconds = _timed(work)
     hours = random.integers(0, 24 * DAYS, PLACES)
     for where, faces, weights in _places(random):
         between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
-        seen = basis.shown(made, grid.coefficients_at(images, between), hours / 24.0)
+        part = basis.rows_at(made, hours / 24.0)[1]
+        told = places, grid.strides_of(made.knots), between, part, made.parts
+        seen = basis.shown(made, grid.coefficients_at(images, *told), hours / 24.0)
         errors = _errors(skin, seen, received, between, hours)
-        _print(
-            f"{name}, {where}", milliseconds, errors, f"{len(images)} images {images[0].shape[:2]}"
-        )
+        size = f"{len(images)} images {images[0].shape[:2]}"
+        _print(f"{name}, {where}", milliseconds, errors, size)
 
 
 def _places(random) -> tuple[tuple[str, NDArray, NDArray], ...]:

@@ -4,18 +4,18 @@ A point gets a share of the doses of every mask. Its coordinates (u, v, b; see `
 
     c(point, day) = mean(day) + sum of a_k(point) phi_k(day),  k = 1 to the rank
 
-so a small image holds the mean and the phi_k, and either a mesh the coefficients a_k, four to a
-colour attribute, or another image, over the shares themselves (`grid`). Attributes are interpolated
-across a face; a tan then runs straight from one point to the next, where the model has jumps.
+so a small image holds the mean and the phi_k, and others the coefficients a_k over the shares
+(`grid`). A part of `ROWS` rows of days has its own shapes and coefficients, since a few tell all of
+a few days; it begins with the row that ends the part before.
 
-What a shader computes, for red, green and blue, which are u, v and b:
+What a shader computes, for red, green and blue, which are u, v and b, with T rows in P parts:
 
 1. `day` to the place of a row: y is the green of `places`, sampled linearly at
    x = (.5 + (STEPS) (day - first_day) / (last_day - first_day)) / (STEPS + 1), y = .5;
-   the images hold their edge.
-2. the mean: `rows` sampled at x = .5 / (rank + 1) and that y.
-3. for every k: plus a_k times `rows` sampled at x = (k + .5) / (rank + 1) and that y. Of a mesh a_1
-   to a_4 are red, green, blue and alpha of the first attribute, and so on.
+   the images hold their edge. The row is r = T y - .5.
+2. the part p = floor(r / ROWS), P - 1 at most.
+3. the mean: `rows` sampled at x = .5 / (rank + 1) and (r + p + .5) / (T + P - 1).
+4. for every k: plus a_k of that part times `rows` sampled at x = (k + .5) / (rank + 1) there.
 
 `shown` is the same in numpy.
 """
@@ -24,35 +24,34 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from hylios.errors import InputError, as_numbers
+from hylios.errors import InputError
 from hylios.sun.doses import Doses
-from hylios.tanning import Burns, ErythemaDynamics, Exposures, Kinetics
-from hylios.tanning.shares import Energies, retained
+from hylios.tanning import ErythemaDynamics, Kinetics
 
-from .darkening import Uva
-from .days import STEPS, darkened_coordinates, hours_to_simulate, states_seen, texel_places
-from .distinct import distinct
+from .course import WEIGHTS, Course, course_of
+from .days import STEPS, texel_places
+from .grid import counts_of_grid, knots_within, shares_of_grid
 from .principal import Shapes, principal_shapes
 
 MOST_MASKS = 8
 
-RANKS = (4, 8, 12, 16)
-"""Numbers of coefficients that a point may have: they come four to an attribute."""
+ROWS = 16
+"""From the first row of a part to the first one of the next."""
 
-WEIGHTS = np.array([1.0, 0.35, 0.7], np.float32)
-"""What errors of u, v and b mean for what is seen."""
-
-WANTED = {"mean": 0.003, "at 99 %": 0.017, "most": 0.039}
+WANTED = {"mean": 0.002, "at 99 %": 0.01, "most": 0.03}
 """Errors of u with which a rank is enough. An error of .01 is .03 to .19 CIEDE2000, so these are
-.05, .3 and .7 where it is seen best."""
+.03, .15 and .45 where it is seen best: as much again is left for what lies between knots."""
 
-TRAINING, WORST = 1024, 256
-"""Points that decide the shapes, and how many bad ones are added."""
+SAID = 0.05
+"""An error of u that is said: no more than .7 CIEDE2000 is wanted."""
 
-CHUNK = 256
-"""Points that are simulated at once; of more the numbers do not fit near the processor."""
+FREQUENT, TRAINING, WORST = 256, 1024, 256
+"""Points that decide the shapes: the most frequent, all of those; and how many bad ones are added.
+"""
+
+SEED = 0
 
 
 @dataclass(frozen=True)
@@ -61,8 +60,14 @@ class BasisPrecision:
 
     Attributes
     ----------
-    levels, most : int
-        Of `distinct`.
+    points : int
+        Most points over the shares.
+    tolerance : float
+        Error of u between them that needs no more.
+    steps : int
+        Of a share, among which its knots are picked.
+    others : int
+        How many shares of the other masks are looked at then, beside none and all.
     rows : int
         Most hours.
     rounds : int
@@ -71,31 +76,33 @@ class BasisPrecision:
         Of which the least that is enough is taken, or else the last.
     """
 
-    levels: int
-    most: int
+    points: int
+    tolerance: float
+    steps: int
+    others: int
     rows: int
     rounds: int
-    ranks: tuple[int, ...] = RANKS
+    ranks: tuple[int, ...]
 
 
-FULL = BasisPrecision(127, 60_000, 128, 4)
+FULL = BasisPrecision(30_000, 0.001, 256, 3, 192, 4, ranks=(3, 6, 9, 12))
 """For what stays in a file."""
 
-DRAG = BasisPrecision(6, 6_000, 80, 1, ranks=(12,))
+DRAG = BasisPrecision(6_000, 0.004, 64, 1, 80, 1, ranks=(9,))
 """For a picture while somebody changes a setting."""
 
 
 @dataclass(frozen=True, eq=False)
 class Basis:
-    """Coordinates of a skin over days at points with shares of several masks.
+    """Coordinates of a skin over days and over the shares of several masks.
 
     Attributes
     ----------
-    differing : (U, rank) float32 array
-        Coefficients of points that differ.
-    point : (N,) int array
-        Which of those a point has.
-    rows : (T, 1 + rank, 3) float32 array
+    knots : tuple of (L,) arrays
+        Of the share of every mask, from 0 to 1.
+    coefficients : (P, N, rank) float32 array
+        Of the parts, at all knots, as `shares_of_grid` has them.
+    rows : (T + P - 1, 1 + rank, 3) float32 array
         u, v and b of the mean, and of the shapes, by day; the first row is that of the first day.
     places : (1, STEPS + 1, 3) float32 array
         Over even steps of the days, in green: the place among the rows.
@@ -106,8 +113,8 @@ class Basis:
     first_day, last_day : float
     """
 
-    differing: NDArray[np.float32]
-    point: NDArray[np.int_]
+    knots: tuple[NDArray[np.float64], ...]
+    coefficients: NDArray[np.float32]
     rows: NDArray[np.float32]
     places: NDArray[np.float32]
     weights: NDArray[np.float64]
@@ -118,164 +125,180 @@ class Basis:
     @property
     def rank(self) -> int:
         """Number of coefficients of a point."""
-        return self.differing.shape[1]
+        return self.coefficients.shape[2]
 
     @property
-    def coefficients(self) -> NDArray[np.float32]:
-        """Of all points, (N, rank)."""
-        return self.differing[self.point]
+    def parts(self) -> int:
+        """Number of parts of the days."""
+        return len(self.coefficients)
+
+
+def rows_at(basis: Basis, days: NDArray) -> tuple[NDArray[np.float64], NDArray[np.int_]]:
+    """The row of days (N,), and the part."""
+    passed = (np.asarray(days) - basis.first_day) / (basis.last_day - basis.first_day)
+    steps = np.arange(basis.places.shape[1])
+    count = len(basis.rows) - basis.parts + 1
+    row = np.interp(passed * steps[-1], steps, basis.places[0, :, 1]) * count - 0.5
+    return row, np.clip((row // ROWS).astype(int), 0, basis.parts - 1)
 
 
 def shown(basis: Basis, coefficients: NDArray, days: NDArray) -> NDArray[np.float64]:
-    """u, v and b (N, 3) that a shader shows with coefficients (N, rank) on days (N,)."""
-    passed = (np.asarray(days) - basis.first_day) / (basis.last_day - basis.first_day)
-    steps = np.arange(basis.places.shape[1])
-    row = np.interp(passed * steps[-1], steps, basis.places[0, :, 1]) * len(basis.rows) - 0.5
+    """u, v and b (N, 3) that a shader shows on days (N,), by their parts' coefficients (N, R)."""
+    row, part = rows_at(basis, days)
+    row = row + part
     below = np.clip(row.astype(int), 0, max(len(basis.rows) - 2, 0))
     above = np.minimum(below + 1, len(basis.rows) - 1)
-    part = np.clip(row - below, 0.0, 1.0)[:, None, None]
-    numbers = basis.rows[below] * (1.0 - part) + basis.rows[above] * part
+    along = np.clip(row - below, 0.0, 1.0)[:, None, None]
+    numbers = basis.rows[below] * (1.0 - along) + basis.rows[above] * along
     return numbers[:, 0] + np.einsum("nk,nkc->nc", coefficients, numbers[:, 1:])
 
 
 def basis(
     received: Sequence[Doses],
-    shares: ArrayLike,
     melanin: Kinetics,
     *,
     mmd: float,
     med: float,
     first_day: float,
     last_day: float,
-    counts: NDArray[np.int_] | None = None,
     precision: BasisPrecision = FULL,
     erythema: ErythemaDynamics | None = None,
     darkens: bool = False,
 ) -> tuple[Basis, NDArray[np.floating]]:
-    """Simulate points of several masks; the basis, and states that some lead through.
+    """Simulate points over the shares of several masks; the basis, and states that some lead to.
 
     Parameters
     ----------
     received : sequence of Doses
         On bare skin, by mask: at most `MOST_MASKS`.
-    shares : (N, M) array
-        0 to 1, of the doses of every mask.
     melanin, mmd, med, first_day, last_day, erythema, darkens
         As in `history`.
-    counts : (N,) int array, optional
-        How often the points are there.
 
     Raises
     ------
     InputError
-        If there are too many masks, or shares, minimal doses or days are out of range.
+        If there are too many masks, or minimal doses or days are out of range.
     """
-    given = _checked(shares, len(received))
-    first, end = int(24.0 * first_day), int(np.ceil(24.0 * last_day))
-    exposures = _of_masks(received)
-    energies = retained(exposures, melanin, mmd=mmd, med=med, hours=end)
-    told_apart = {"levels": precision.levels, "most": precision.most}
-    vectors, often, point = distinct(given, energies, exposures.hours, counts=counts, **told_apart)
-    few = np.append(vectors[:7], np.ones((1, len(received))), axis=0)
-    burns = None if erythema is None else Burns.of(exposures, erythema, med)
-    uva = Uva.of(received) if darkens else None
-    rows = precision.rows
-    marks = hours_to_simulate(energies, few, exposures, (first, end), rows, 3, burns, uva)
-    curves, states = _simulated(energies, vectors, marks, first, (burns, uva))
-    hours = marks[marks >= first]
-    shapes, coefficients, error = _shapes(curves, often, precision)
-    places = np.zeros((1, STEPS + 1, 3), np.float32)
-    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
-    places[0, :, 1] = texel_places(days, hours, len(hours))
-    rows = np.zeros((len(hours), 1 + coefficients.shape[1], 3), np.float32)
-    lines = np.concatenate([shapes.mean[None], shapes.shapes])
-    told = lines.shape[1] // len(hours)
-    by_number = lines.reshape(len(lines), told, len(hours)).transpose(2, 0, 1)
-    rows[..., :told] = by_number / WEIGHTS[:told]
-    doses = exposures.doses.sum(axis=1)
-    weights = doses / max(doses.sum(), 1e-30)
-    return Basis(coefficients, point, rows, places, weights, error, first_day, last_day), states
-
-
-def _checked(shares: ArrayLike, masks: int) -> NDArray[np.float64]:
+    masks = len(received)
     if not 1 <= masks <= MOST_MASKS:
         raise InputError(
             f"times in the sun have {masks} masks; allowed are 1 to {MOST_MASKS} different ones on "
             "a mesh."
         )
-    given = as_numbers("shares", shares)
-    if given.ndim != 2 or given.shape[1] != masks or not len(given):
-        raise InputError(f"shares have shape {given.shape}; expected (points, {masks} masks).")
-    if not np.all((given >= 0.0) & (given <= 1.0)):
-        raise InputError("a share is out of range; allowed is 0 to 1.")
-    return given
+    random = np.random.default_rng(SEED)
+    course = course_of(
+        received,
+        melanin,
+        (mmd, med),
+        (first_day, last_day),
+        precision.rows,
+        erythema,
+        darkens=darkens,
+    )
+    knots = _knots(course, masks, precision, random)
+    shares = shares_of_grid(knots)
+    counts = counts_of_grid(shares)
+    order = np.argsort(-counts, kind="stable")
+    often, others = order[:FREQUENT], order[FREQUENT:]
+    training = np.append(often, random.permutation(others)[: TRAINING - FREQUENT])
+    curves = course.seen(shares)
+    hours = course.hours
+    parts = _parts(curves, len(hours))
+    shapes, coefficients, error = _shapes(parts, counts, training, precision)
+    places = np.zeros((1, STEPS + 1, 3), np.float32)
+    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
+    places[0, :, 1] = texel_places(days, hours, len(hours))
+    rows = np.concatenate([_rows(own, curves.shape[1] // len(hours)) for own in shapes])
+    doses = course.exposures.doses.sum(axis=1)
+    weights = doses / max(doses.sum(), 1e-30)
+    made = Basis(knots, coefficients, rows, places, weights, error, first_day, last_day)
+    return made, course.states(shares[often])
 
 
-def _of_masks(received: Sequence[Doses]) -> Exposures:
-    """The doses of all masks, a row for every mask (M, E)."""
-    hours = np.concatenate([own.hours for own in received])
-    ends = np.cumsum([own.hours.size for own in received])
-    melanogenesis, thickening = np.zeros((2, len(received), hours.size))
-    for mask, (own, end) in enumerate(zip(received, ends, strict=True)):
-        those = slice(end - own.hours.size, end)
-        melanogenesis[mask, those], thickening[mask, those] = own.melanogenesis, own.thickening
-    return Exposures(hours, melanogenesis, thickening)
+def _knots(
+    course: Course, masks: int, precision: BasisPrecision, random: np.random.Generator
+) -> tuple[NDArray[np.float64], ...]:
+    """Knots of the share of every mask, by how the tan bends over it beside others' shares."""
+    across = np.linspace(0.0, 1.0, precision.steps + 1)
+    beside = np.concatenate(
+        [
+            np.zeros((1, masks)),
+            np.ones((1, masks)),
+            random.integers(0, 2, (precision.others, masks)),
+        ]
+    )
+    lines = []
+    for mask in range(masks):
+        shares = np.repeat(beside[None], len(across), axis=0)
+        shares[..., mask] = across[:, None]
+        lines.append(course.seen(shares.reshape(-1, masks)).reshape(len(across), -1))
+    return knots_within(across, lines, precision.points, precision.tolerance)
 
 
-def _simulated(
-    energies: Energies,
-    vectors: NDArray[np.float64],
-    marks: NDArray[np.int_],
-    first: int,
-    at_once: tuple[Burns | None, Uva | None],
-) -> tuple[NDArray[np.float32], NDArray[np.floating]]:
-    """u, v and where skin reddens b of points (U, 2 T or 3 T), as they count; states of some."""
-    told, (burns, uva) = marks >= first, at_once
-    numbers = 2 if burns is None else 3
-    curves = np.empty((len(vectors), numbers, np.count_nonzero(told)), np.float32)
-    kept = np.zeros(0)
-    for start in range(0, len(vectors), CHUNK):
-        part = vectors[start : start + CHUNK]
-        states = states_seen(energies, part, marks, np.float32, burns)[told]
-        seen = darkened_coordinates(states, uva, part, marks[told])[..., :numbers]
-        seen *= WEIGHTS[:numbers]
-        curves[start : start + CHUNK] = np.moveaxis(seen, (1, 2), (0, 1))
-        kept = kept if start else states
-    return curves.reshape(len(vectors), -1), kept
+def _parts(curves: NDArray[np.float32], hours: int) -> list[NDArray[np.float32]]:
+    """Parts of the hours of curves (N, numbers times hours), as such curves."""
+    by_number = curves.reshape(len(curves), -1, hours)
+    starts = range(0, max(hours - 1, 1), ROWS)
+    return [by_number[:, :, a : a + ROWS + 1].reshape(len(curves), -1) for a in starts]
+
+
+def _rows(shapes: Shapes, numbers: int) -> NDArray[np.float32]:
+    """The mean and shapes (rows, 1 + rank, 3) of a part, of as many numbers."""
+    lines = np.concatenate([shapes.mean[None], shapes.shapes])
+    hours = lines.shape[1] // numbers
+    rows = np.zeros((hours, len(lines), 3), np.float32)
+    rows[..., :numbers] = lines.reshape(-1, numbers, hours).transpose(2, 0, 1) / WEIGHTS[:numbers]
+    return rows
 
 
 def _shapes(
-    curves: NDArray[np.float32], counts: NDArray[np.float64], precision: BasisPrecision
-) -> tuple[Shapes, NDArray[np.float32], float]:
-    """Shapes of the least rank that is enough; coefficients (U, rank); the largest error."""
-    those = np.arange(min(TRAINING, len(curves)))
+    parts: list[NDArray[np.float32]],
+    counts: NDArray[np.float64],
+    those: NDArray[np.int_],
+    precision: BasisPrecision,
+) -> tuple[list[Shapes], NDArray[np.float32], float]:
+    """Shapes of parts of the least rank that is enough; coefficients (P, N, rank); the largest
+    error.
+
+    Parameters
+    ----------
+    those : int array
+        Points that decide the shapes.
+    """
     *first, last = precision.ranks
     for rank in first:
-        shapes = _fitted(curves, counts, those, rank, precision)
+        shapes = [_fitted(own, counts, those, rank, precision) for own in parts]
         # What does not suffice for the curves it was fitted to does not for all.
-        if _is_enough(_left(shapes, curves[those])[1], counts[those]):
-            shapes, coefficients, errors = _of_all(shapes, curves, counts, precision)
+        left = [_left(own, curves[those])[1] for own, curves in zip(shapes, parts, strict=True)]
+        if _is_enough(left, counts[those]):
+            shapes, coefficients, errors = _of_all(shapes, parts, counts, those, precision)
             if _is_enough(errors, counts):
-                return shapes, coefficients, float(errors.max())
-    shapes = _fitted(curves, counts, those, last, precision)
-    shapes, coefficients, errors = _of_all(shapes, curves, counts, precision)
-    return shapes, coefficients, float(errors.max())
+                return shapes, coefficients, float(max(own.max() for own in errors))
+    shapes = [_fitted(own, counts, those, last, precision) for own in parts]
+    shapes, coefficients, errors = _of_all(shapes, parts, counts, those, precision)
+    return shapes, coefficients, float(max(own.max() for own in errors))
 
 
 def _of_all(
-    shapes: Shapes,
-    curves: NDArray[np.float32],
+    shapes: list[Shapes],
+    parts: list[NDArray[np.float32]],
     counts: NDArray[np.float64],
+    those: NDArray[np.int_],
     precision: BasisPrecision,
-) -> tuple[Shapes, NDArray[np.float32], NDArray[np.float32]]:
+) -> tuple[list[Shapes], NDArray[np.float32], list[NDArray[np.float32]]]:
     """Shapes fitted once more with the worst curves; coefficients and errors of all."""
-    coefficients, errors = _left(shapes, curves)
-    worst = errors.max(axis=1)
-    if worst.max() <= WANTED["most"] or len(curves) <= TRAINING:
-        return shapes, coefficients, errors
-    those = np.union1d(np.arange(TRAINING), np.argsort(-worst)[:WORST])
-    shapes = _fitted(curves, counts, those, len(shapes.shapes), precision)
-    return shapes, *_left(shapes, curves)
+    fitted, coefficients, errors = [], [], []
+    for own, curves in zip(shapes, parts, strict=True):
+        best, (given, left) = own, _left(own, curves)
+        worst = left.max(axis=1)
+        if worst.max() > WANTED["most"] and len(curves) > len(those):
+            harder = np.union1d(those, np.argsort(-worst)[:WORST])
+            best = _fitted(curves, counts, harder, len(own.shapes), precision)
+            given, left = _left(best, curves)
+        fitted.append(best)
+        coefficients.append(given)
+        errors.append(left)
+    return fitted, np.stack(coefficients), errors
 
 
 def _fitted(
@@ -298,12 +321,15 @@ def _left(
     return coefficients, np.abs(shapes.curves(coefficients) - curves)
 
 
-def _is_enough(errors: NDArray, counts: NDArray) -> bool:
-    worst = errors.max(axis=1)
-    mean = np.average(errors.mean(axis=1), weights=counts)
+def _is_enough(errors: Sequence[NDArray], counts: NDArray) -> bool:
+    """Whether errors (N, K) of parts are small enough for points that count so much."""
+    worst = np.max([own.max(axis=1) for own in errors], axis=0)
+    means = np.mean([own.mean(axis=1) for own in errors], axis=0)
     order = np.argsort(worst)
     passed = np.cumsum(counts[order]) / counts.sum()
     usual = worst[order][np.searchsorted(passed, 0.99)]
     return bool(
-        mean <= WANTED["mean"] and usual <= WANTED["at 99 %"] and worst.max() <= WANTED["most"]
+        np.average(means, weights=counts) <= WANTED["mean"]
+        and usual <= WANTED["at 99 %"]
+        and worst.max() <= WANTED["most"]
     )

@@ -1,111 +1,142 @@
-"""Coefficients of a time basis over the shares of a few masks, as images that a shader reads.
+"""Coefficients of a time basis over the shares of masks, as images that a shader reads.
 
 A shader that reads the shares themselves has them right everywhere: inside faces, and at every
-texel of a mask that is an image. The coefficients are given at even steps of every share, and run
-straight between them.
+texel of a mask that is an image. Coefficients are given at knots of the share of every mask, dense
+where the tan bends. Between knots a point lies in a simplex of as many corners as there are masks,
+and one more: from the lowest knots to the highest ones, by one mask after another, that whose share
+has gone farthest to its next knot first (Kuhn's division of a cube). So eight masks take nine
+texels, not 256.
 
-An image holds three coefficients. What a shader computes from shares s_1 to s_3 of which each has L
-steps, for b = 0 to a third of the rank:
+An image holds three coefficients, of knots in `COLUMNS` columns: those of the last mask change
+fastest. Parts of the days (`basis`) lie above one another, R rows of texels to a part. What a
+shader computes from shares s_1 to s_M, all without interpolation of texels:
 
-1. of two masks: coefficients 3 b + 1 to 3 b + 3 are red, green and blue of image b, sampled
-   linearly at x = (.5 + s_1 (L - 1)) / L and y = (.5 + s_2 (L - 1)) / L.
-2. of three masks: the slice z = floor(s_3 (L - 1)), L - 2 at most, and what is left of it, f.
-   Slices lie above one another, each second one upside down. So the image is sampled at
-   y = (z + (.5 + t (L - 1)) / L) / L, where t is s_2, or 1 - s_2 if z is odd; then in slice z + 1;
-   and the two are mixed by f.
-
-Where shares change fast from pixel to pixel EEVEE takes the mean of neighbouring texels. So they
-are those of neighbouring shares everywhere in an image.
+1. for every mask m: i_m and f_m are the red and the green of `places` at
+   x = (.5 + STEPS s_m) / (STEPS + 1) and y = (.5 + m - 1) / M: a knot, and the part of the way to
+   the next one.
+2. n_0 = sum of i_m stride_m, where stride_m is the number of knots of all later masks together.
+3. F_1 to F_M: f in descending order. n_k = n_0 + the sum of stride_m where f_m >= F_k.
+4. the sum over k = 0 to M of (F_k - F_(k + 1)) times the texel of n_k, with F_0 = 1, F_(M + 1) = 0:
+   in row p R + floor(n_k / COLUMNS) from the bottom for part p, and column n_k modulo COLUMNS.
 
 `coefficients_at` is the same in numpy.
 """
 
-import itertools
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .basis import DRAG, FULL, BasisPrecision
+from .thinning import by_error
 
 CHANNELS = 3
 """Coefficients of a texel."""
 
+COLUMNS = 256
+
+STEPS = 1024
+"""Even steps of a share that are told apart; 0 and 1 are exact."""
+
 ENDS = 16
 """How often a share of 0 or 1 counts where one between counts once."""
 
-SLICED = 2
-"""With more masks an image has slices."""
-
-RANKS = (6, 9, 12, 15)
+LARGEST, HALVINGS = 4.0, 16
+"""An error of u above which no knots are needed; how often what is allowed below it is halved."""
 
 
-@dataclass(frozen=True, eq=False)
-class GridPrecision:
-    """How closely coefficients over shares are computed.
+def knots_within(
+    across: NDArray[np.float64], lines: Sequence[NDArray], points: int, tolerance: float
+) -> tuple[NDArray[np.float64], ...]:
+    """Knots of the shares of masks between which all runs straight alike, as closely as there is
+    room.
 
-    Attributes
+    Parameters
     ----------
-    steps : mapping
-        Steps of a share, by the number of masks.
-    basis : BasisPrecision
+    across : (S,) array
+        Steps of a share from 0 to 1.
+    lines : sequence of (S, K) arrays
+        Numbers over the steps, by mask.
+    points : int
+        Most points that all knots together may lead to.
+    tolerance : float
+        An error that needs no more knots.
     """
 
-    steps: Mapping[int, int]
-    basis: BasisPrecision
+    def within(allowed: float) -> list[NDArray[np.int_]]:
+        return [by_error(across, own, len(across), allowed) for own in lines]
+
+    def count(knots: list[NDArray[np.int_]]) -> int:
+        return int(np.prod([len(own) for own in knots]))
+
+    best = within(tolerance)
+    if count(best) > points:
+        low, high = np.log((tolerance, LARGEST))
+        best = within(LARGEST)
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            knots = within(float(np.exp(middle)))
+            if count(knots) > points:
+                low = middle
+            else:
+                high, best = middle, knots
+    return tuple(across[own] for own in best)
 
 
-EVERY_STEP = 1_000_000
-"""No points of a grid are taken together."""
-
-FULL_GRID = GridPrecision({2: 128, 3: 33}, replace(FULL, most=EVERY_STEP, ranks=RANKS))
-"""For what stays in a file."""
-
-DRAG_GRID = GridPrecision({2: 64, 3: 21}, replace(DRAG, levels=FULL.levels, most=EVERY_STEP))
-"""For a picture while somebody changes a setting."""
-
-MOST_MASKS_READ = max(FULL_GRID.steps)
-"""With more masks there would be too many steps."""
+def shares_of_grid(knots: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Shares (N, masks) at all knots; those of the last mask change fastest."""
+    axes = np.meshgrid(*knots, indexing="ij")
+    return np.stack(axes, axis=-1).reshape(-1, len(knots))
 
 
-def shares_of_grid(masks: int, steps: int) -> NDArray[np.float64]:
-    """Shares (steps^masks, masks) at all steps; the first mask's change fastest."""
-    axes = np.meshgrid(*[np.linspace(0.0, 1.0, steps)] * masks, indexing="ij")
-    return np.stack(axes[::-1], axis=-1).reshape(-1, masks)
-
-
-def counts_of_grid(shares: NDArray[np.float64]) -> NDArray[np.int_]:
+def counts_of_grid(shares: NDArray[np.float64]) -> NDArray[np.float64]:
     """How often shares (N, M) of a grid count, (N,): most of a body is bare or covered."""
-    return ENDS ** np.count_nonzero((shares == 0.0) | (shares == 1.0), axis=1)
+    return float(ENDS) ** np.count_nonzero((shares == 0.0) | (shares == 1.0), axis=1)
 
 
-def images_of(coefficients: NDArray, masks: int, steps: int) -> list[NDArray[np.float32]]:
-    """Images (rows, steps, 3) of coefficients (steps^masks, rank), the rank a multiple of 3."""
-    table = np.array(coefficients, np.float32).reshape(-1, steps, steps, coefficients.shape[1])
-    if masks > SLICED:
-        table[1::2] = table[1::2, ::-1]
-    rows = table.reshape(-1, *table.shape[2:])
-    return by_texels(rows)
+def strides_of(knots: Sequence[NDArray[np.float64]]) -> tuple[int, ...]:
+    """How far apart points of neighbouring knots are, by mask."""
+    counts = [len(own) for own in knots]
+    return tuple(int(np.prod(counts[mask + 1 :])) for mask in range(len(counts)))
 
 
-def by_texels(values: NDArray[np.float32]) -> list[NDArray[np.float32]]:
-    """Images (rows, columns, 3) of values (rows, columns, K), K a multiple of 3."""
-    return [values[..., b : b + CHANNELS] for b in range(0, values.shape[-1], CHANNELS)]
+def places_among(knots: Sequence[NDArray[np.float64]]) -> NDArray[np.float32]:
+    """The image (masks, STEPS + 1, 3) of the place of a share among a mask's knots."""
+    steps = np.linspace(0.0, 1.0, STEPS + 1)
+    image = np.zeros((len(knots), STEPS + 1, 3), np.float32)
+    for row, own in zip(image, knots, strict=True):
+        place = np.interp(steps, own, np.arange(len(own)))
+        row[:, 0] = np.minimum(np.floor(place), len(own) - 2)
+        row[:, 1] = place - row[:, 0]
+    return image
 
 
-def coefficients_at(images: Sequence[NDArray], shares: NDArray) -> NDArray[np.float64]:
-    """Coefficients (N, rank) that a shader has at shares (N, masks)."""
-    masks, steps = shares.shape[1], images[0].shape[1]
-    table = np.concatenate(images, axis=-1).reshape(-1, steps, steps, len(images) * CHANNELS)
-    if masks > SLICED:
-        table[1::2] = table[1::2, ::-1]
-    table = table.reshape(*[steps] * masks, -1)
-    place = shares[:, ::-1] * (steps - 1.0)
-    low = np.clip(place.astype(int), 0, steps - 2)
-    part = place - low
-    total = np.zeros((len(shares), table.shape[-1]))
-    for corner in itertools.product((0, 1), repeat=masks):
-        weight = np.where(corner, part, 1.0 - part).prod(axis=1)
-        total += weight[:, None] * table[tuple((low + corner).T)]
+def images_of(coefficients: NDArray) -> list[NDArray[np.float32]]:
+    """Images (rows, COLUMNS, 3) of coefficients (parts, N, rank), the rank a multiple of 3."""
+    _, count, rank = coefficients.shape
+    wanted = -count % COLUMNS
+    padded = np.pad(coefficients, ((0, 0), (0, wanted), (0, 0)), mode="edge")
+    table = padded.astype(np.float32).reshape(-1, COLUMNS, rank)
+    return [table[..., b : b + CHANNELS] for b in range(0, rank, CHANNELS)]
+
+
+def coefficients_at(
+    images: Sequence[NDArray],
+    places: NDArray,
+    strides: Sequence[int],
+    shares: NDArray,
+    part: NDArray[np.int_],
+    parts: int,
+) -> NDArray[np.float64]:
+    """Coefficients (N, rank) that a shader has at shares (N, masks), in a part (N,) of so many."""
+    column = np.floor(shares * STEPS + 0.5).astype(int)
+    told = places[np.arange(shares.shape[1]), column].astype(float)
+    table = np.concatenate(images, axis=-1).reshape(-1, len(images) * CHANNELS)
+    first = part * (len(table) // parts) + told[..., 0].astype(int) @ strides
+    along = told[..., 1]
+    ordered = np.pad(-np.sort(-along, axis=1), ((0, 0), (1, 1)), constant_values=(1.0, 0.0))
+    weights = -np.diff(ordered, axis=1)
+    total = weights[:, :1] * table[first]
+    for k in range(1, weights.shape[1]):
+        point = first + (along >= ordered[:, k : k + 1]) @ strides
+        total += weights[:, k : k + 1] * table[point]
     return total

@@ -16,10 +16,10 @@ from hylios.table import MinimalDoses, SkinTable, skin_of
 from hylios.threads import one_thread
 
 from . import catalogue, doses
+from .basis import DRAG as DRAG_BASIS
 from .basis import FULL as FULL_BASIS
-from .basis import Basis, BasisPrecision, basis
+from .basis import Basis, basis
 from .biology import table_with
-from .grid import DRAG_GRID, FULL_GRID, counts_of_grid, images_of, shares_of_grid
 from .history import FULL, History, Precision, history
 from .look import Look, look
 from .peeling import peeling_image
@@ -223,29 +223,30 @@ def history_within(
     return over_time
 
 
-def basis_of(
-    settings: TanSettings,
-    which: Sequence[int],
-    shares: NDArray,
-    precision: BasisPrecision = FULL_BASIS,
-    counts: NDArray[np.int_] | None = None,
-) -> Basis:
-    """The coordinates of points whose exposures have several masks.
+def basis_of(settings: TanSettings, which: Sequence[int], *, rough: bool = False) -> Basis:
+    """The coordinates over the shares of several masks; made anew only for another history.
 
     Parameters
     ----------
     which : sequence of int
         Mask of every exposure of the settings.
-    shares : (N, M) array
-        Of the doses under every mask.
-    counts : (N,) int array, optional
-        How often the points are there.
+    rough : bool
+        Whether it is for a picture while somebody changes a setting.
 
     Raises
     ------
     InputError
         As `history_of`, or if there are too many masks.
     """
+    stamp = catalogue.stamp(settings.table)
+    history_only = replace(settings, biology=Biology())
+    return _basis(history_only, stamp, tuple(which), rough)
+
+
+@functools.lru_cache(maxsize=8)
+def _basis(
+    settings: TanSettings, stamp: tuple[int, int], which: tuple[int, ...], rough: bool
+) -> Basis:
     table = catalogue.table(settings.table)
     minimal = settings.minimal_doses(table.provenance)
     told = list(zip(settings.exposures, which, strict=True))
@@ -253,70 +254,22 @@ def basis_of(
         doses.received(
             [exposure for exposure, own in told if own == mask], minimal.mmd, table.provenance
         )
-        for mask in range(shares.shape[1])
+        for mask in range(len(set(which)))
     ]
     response = response_of(table, settings.kinetics, settings.redness, settings.darkening)
     made, states = basis(
         by_mask,
-        shares,
         response.melanin,
         mmd=minimal.mmd,
         med=minimal.med,
         first_day=settings.first_day,
         last_day=settings.last_day,
-        counts=counts,
-        precision=precision,
+        precision=DRAG_BASIS if rough else FULL_BASIS,
         erythema=response.erythema,
         darkens=response.darkens,
     )
     _require_held(table, states)
     return made
-
-
-@dataclass(frozen=True, eq=False)
-class BasisOverShares:
-    """A basis whose coefficients are images over the shares of its masks (`grid`).
-
-    Attributes
-    ----------
-    basis : Basis
-        At the steps of the grid.
-    images : list of (rows, steps, 3) float32 arrays
-    steps : int
-        Of a share.
-    """
-
-    basis: Basis
-    images: list[NDArray[np.float32]]
-    steps: int
-
-
-def basis_over_shares(
-    settings: TanSettings, which: Sequence[int], *, rough: bool = False
-) -> BasisOverShares:
-    """The coordinates over the shares of a few masks; made anew only for another history.
-
-    Parameters
-    ----------
-    rough : bool
-        Whether it is for a picture while somebody changes a setting.
-
-    Others and errors as of `basis_of`.
-    """
-    stamp = catalogue.stamp(settings.table)
-    history_only = replace(settings, biology=Biology())
-    return _over_shares(history_only, stamp, tuple(which), rough)
-
-
-@functools.lru_cache(maxsize=8)
-def _over_shares(
-    settings: TanSettings, stamp: tuple[int, int], which: tuple[int, ...], rough: bool
-) -> BasisOverShares:
-    masks, precision = len(set(which)), DRAG_GRID if rough else FULL_GRID
-    steps = precision.steps[masks]
-    shares = shares_of_grid(masks, steps)
-    made = basis_of(settings, which, shares, precision.basis, counts_of_grid(shares))
-    return BasisOverShares(made, images_of(made.coefficients, masks, steps), steps)
 
 
 def _require_held(table: SkinTable, states: NDArray) -> None:

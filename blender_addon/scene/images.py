@@ -68,24 +68,6 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     return image
 
 
-def packed_bytes(name: str, values: np.ndarray) -> bpy.types.Image:
-    """Store bytes (rows, columns, 3), the first row at the bottom, in a new packed image of 8 bits.
-
-    Raises
-    ------
-    InputError
-        If Blender's colour management has no space for numbers that are no colours.
-    """
-    rows, columns, _ = values.shape
-    image = bpy.data.images.new(name, columns, rows, alpha=False)
-    set_colour_space(image, is_colour=False)
-    _set_pixels(image, np.divide(values, 255.0, dtype=np.float32))
-    image[MARK] = image.name
-    image.pack()
-    image.buffers_free()
-    return image
-
-
 def _pack(image: bpy.types.Image, values: np.ndarray) -> None:
     """Pack values into a float image, which shows what is packed from now on.
 

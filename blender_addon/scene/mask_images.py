@@ -31,18 +31,6 @@ def at_places(image: Any, places: NDArray, channel: str) -> NDArray[np.float32]:
     return _numbers(image, np.asarray(lower * (1 - up) + upper * up, np.float32), channel)
 
 
-def at_texels(image: Any, channel: str) -> NDArray[np.float32]:
-    """An image at all its texels (N,), row by row from the bottom.
-
-    Raises
-    ------
-    InputError
-        If it has tiles.
-    """
-    pixels = _pixels(image)
-    return _numbers(image, pixels.reshape(-1, pixels.shape[-1]), channel)
-
-
 def of_channel(colours: NDArray[np.float32], channel: str) -> NDArray[np.float32]:
     """What counts of colours (N, 4)."""
     if channel == "ALPHA":
@@ -54,8 +42,8 @@ def _pixels(image: Any) -> NDArray[np.float32]:
     """Pixels (rows, columns, channels)."""
     if image.source == "TILED":
         raise InputError(
-            f"The image {image.name!r} has tiles (UDIM), which cannot be read for more than three "
-            "masks; allowed is an image without, or three masks at most."
+            f"The image {image.name!r} has tiles (UDIM), which cannot be copied; allowed is one "
+            "without."
         )
     columns, rows = image.size
     pixels = np.empty(rows * columns * image.channels, np.float32)

@@ -195,15 +195,6 @@ def _of_attribute(mesh: bpy.types.Mesh, name: str, channel: str) -> tuple[str, N
     return attribute.domain, numbers
 
 
-def at_corners(mesh: bpy.types.Mesh, values: MaskValues) -> NDArray[np.float32]:
-    """Shares (corners,) of a mask."""
-    if values.domain == "CORNER":
-        return values.shares
-    points = np.empty(len(mesh.loops), np.int32)
-    cast(Any, mesh.loops).foreach_get("vertex_index", points)
-    return values.shares[points]
-
-
 def uv_places(
     obj: bpy.types.Object, name: str, depsgraph: bpy.types.Depsgraph | None = None
 ) -> NDArray[np.float32]:

@@ -1,88 +1,41 @@
-"""A tan of several masks, in an object's group of nodes and on its mesh.
+"""A tan of several masks, in an object's group of nodes.
 
-The group has one node more, a group (`several_nodes`) that computes the skin's state and the share
-of of all doses; it takes the place of the image of states and of the mask's nodes. It reads a few
-masks themselves, or of more masks attributes that are written onto the mesh, or an image of which
-tan each texel has.
+The group has one node more, a group (`several_nodes`) that reads the masks and computes the skin's
+state and the share of all doses; it takes the place of the image of states and of the mask's nodes.
+
+Earlier versions wrote attributes onto the mesh for more than three masks, or an image of which tan
+each texel has; both go away at the next Apply.
 """
 
 import json
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, cast
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
 from . import several_nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
-from .mask_values import MaskValues, at_corners
 from .nodes import new_node, of_role
 from .ownership import remembered
 from .plan import Role
-from .several_nodes import ATTRIBUTES_KEY, VALUES_OF_ATTRIBUTE, Basis, Grid, Palette
-from .vertex_groups import new_attribute, remove_attribute
-
-PREFIX = "skin_tan_basis_"
+from .several_nodes import ATTRIBUTES_KEY, Basis, Grid
+from .vertex_groups import remove_attribute
 
 GRID = "grid_{}"
-"""Roles of the images over shares, and of those of a palette."""
+"""Roles of the images over shares."""
 
 IMAGE_KEYS = {
     role: f"skin_tan_basis_{role}"
-    for role in ("rows", "days", "index", *(GRID.format(block) for block in range(5)))
+    for role in ("rows", "days", "places", "index", *(GRID.format(block) for block in range(5)))
 }
-"""Custom properties of a tan's group: the images of its basis."""
+"""Custom properties of a tan's group: the images of its basis; one of earlier versions is gone."""
 
 BASIS = {"basis": Role("ShaderNodeGroup", "State of several masks", (-300, -150))}
 
 REPLACED = {"State": ("states", "Color"), "Share": ("share", "Value")}
 """Roles and outputs whose place outputs of the node take."""
-
-
-@dataclass(frozen=True, eq=False)
-class OnMesh:
-    """What is written onto a mesh for a tan of several masks.
-
-    Attributes
-    ----------
-    coefficients : (N, rank) float32 array
-    share : (N,) float32 array
-        Of all doses.
-    domain : str
-        POINT or CORNER: what the N are.
-    """
-
-    coefficients: NDArray[np.float32]
-    share: NDArray[np.float32]
-    domain: str
-
-
-@dataclass(frozen=True, eq=False)
-class OverShares:
-    """What a tan reads that finds its coefficients by the shares of masks.
-
-    Attributes
-    ----------
-    grid : Grid
-    masks : sequence of ShownMask
-    """
-
-    grid: Grid
-    masks: Sequence[ShownMask]
-
-
-def shares_of_masks(
-    mesh: bpy.types.Mesh, values: Sequence[MaskValues]
-) -> tuple[str, NDArray[np.float32]]:
-    """Domain, and shares (N, M) of masks; those at points are told at corners where one is so."""
-    if all(own.domain == "POINT" for own in values):
-        return "POINT", np.stack([own.shares for own in values], axis=1)
-    columns = [at_corners(mesh, own) for own in values]
-    return "CORNER", np.stack(columns, axis=1)
 
 
 def is_shown(group: bpy.types.NodeTree) -> bool:
@@ -99,26 +52,16 @@ def show(
     obj: bpy.types.Object,
     group: bpy.types.NodeTree,
     basis: Basis,
-    source: OnMesh | OverShares | Palette,
+    grid: Grid,
+    masks: Sequence[ShownMask],
     changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks; which new image replaces which former one."""
     node = next(of_role(group, "basis"), None)
-    name = f"Skin Tan Masks {obj.name}"
-    made = {"rows": basis.rows, "days": basis.days}
-    if isinstance(source, OverShares):
-        made |= {GRID.format(block): image for block, image in enumerate(source.grid.images)}
-        tree = several_nodes.over_shares(name, basis, source.grid, source.masks, changes)
-        remove_attributes(obj, group, changes)
-    elif isinstance(source, Palette):
-        made |= {GRID.format(block): image for block, image in enumerate(source.images)}
-        made["index"] = source.index
-        tree = several_nodes.over_texels(name, basis, source)
-        remove_attributes(obj, group, changes)
-    else:
-        former = [] if node is None else _names(node.node_tree)
-        names = _written(obj, group, former, source, changes)
-        tree = several_nodes.on_mesh(name, basis, names)
+    made = {"rows": basis.rows, "days": basis.days, "places": grid.places}
+    made |= {GRID.format(block): image for block, image in enumerate(grid.images)}
+    tree = several_nodes.over_shares(f"Skin Tan Masks {obj.name}", basis, grid, masks, changes)
+    remove_attributes(obj, group, changes)
     changes.may_add_to(group.nodes)
     changes.may_relink(group)
     if node is None:
@@ -184,7 +127,7 @@ def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes)
 def remove_attributes(
     obj: bpy.types.Object, group: bpy.types.NodeTree | None, changes: Changes
 ) -> None:
-    """Remove what was made for several masks on an object's mesh, and no other object shows.
+    """Remove what earlier versions made on an object's mesh, and no other object shows.
 
     Parameters
     ----------
@@ -200,59 +143,6 @@ def remove_attributes(
     for name in going:
         changes.at_the_end(partial(remove_attribute, mesh, name))
     _remember(mesh, [name for name in own if name not in going], changes)
-
-
-def _written(
-    obj: bpy.types.Object,
-    group: bpy.types.NodeTree,
-    former: Collection[str],
-    sampled: OnMesh,
-    changes: Changes,
-) -> list[str]:
-    """Write coefficients, and last the share; the names of the attributes."""
-    mesh = cast(bpy.types.Mesh, obj.data)
-    active = mesh.attributes.active_color_name, mesh.attributes.default_color_name
-    own, others = _own(mesh), _of_others(obj, group)
-    free = [name for name in former if name in own and name not in others]
-    count = sampled.coefficients.shape[1] // VALUES_OF_ATTRIBUTE
-    names = []
-    for number in range(count + 1):
-        is_share = number == count
-        stem = PREFIX + ("share" if is_share else str(number))
-        kind = "FLOAT" if is_share else "FLOAT_COLOR"
-        name = next((name for name in free if name.startswith(stem)), None)
-        attribute = None if name is None else mesh.attributes.get(name)
-        if attribute is None or (attribute.data_type, attribute.domain) != (kind, sampled.domain):
-            name = new_attribute(mesh, stem, kind, sampled.domain, changes)
-        first = number * VALUES_OF_ATTRIBUTE
-        values = sampled.share
-        if not is_share:
-            values = sampled.coefficients[:, first : first + VALUES_OF_ATTRIBUTE]
-        _write(mesh, str(name), values, changes)
-        names.append(str(name))
-    # A colour attribute that is new becomes the one to paint on where there is none.
-    for end, name in zip(("active_color_name", "default_color_name"), active, strict=True):
-        if getattr(mesh.attributes, end) != name:
-            changes.set(mesh.attributes, end, name)
-    for name in set(own) - {*others, *names}:
-        changes.at_the_end(partial(remove_attribute, mesh, name))
-    others_s = [name for name in own if name in others]
-    _remember(mesh, [*others_s, *names], changes)
-    return names
-
-
-def _write(mesh: bpy.types.Mesh, name: str, values: NDArray[np.float32], changes: Changes) -> None:
-    # By name: a reference does not outlive another attribute's making.
-    end = "value" if values.ndim == 1 else "color"
-    former = np.empty(values.size, np.float32)
-    cast(Any, mesh.attributes[name]).data.foreach_get(end, former)
-    changes.on_failure(_set, mesh, name, end, former)
-    _set(mesh, name, end, np.ascontiguousarray(values).ravel())
-
-
-def _set(mesh: bpy.types.Mesh, name: str, end: str, values: NDArray[np.float32]) -> None:
-    cast(Any, mesh.attributes[name]).data.foreach_set(end, values)
-    mesh.update_tag()
 
 
 def _own(mesh: bpy.types.Mesh) -> list[str]:

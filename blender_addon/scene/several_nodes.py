@@ -4,8 +4,7 @@
 coefficients by shares.
 """
 
-import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,13 +16,8 @@ from .mask_nodes import ShownMask
 from .plan import ROLE_KEY
 
 ATTRIBUTES_KEY = "skin_tan_basis"
-"""Custom property of a mesh: names of the attributes that Apply made for several masks, as JSON.
-Of a group of nodes: those that it reads."""
-
-VALUES_OF_ATTRIBUTE = 4
-
-SLICED = 2
-"""With more masks images have slices."""
+"""Custom property of our groups of nodes, and in earlier versions of a mesh: the attributes that
+Apply made for several masks, as JSON."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +28,15 @@ class Basis:
     ----------
     rank : int
         Number of shapes.
+    parts, step : int
+        Number of parts of the days; rows from the first one of a part to that of the next.
     rows, days : Image
         Mean and shapes by day; where a day lies among the rows.
     """
 
     rank: int
+    parts: int
+    step: int
     rows: bpy.types.Image
     days: bpy.types.Image
 
@@ -51,53 +49,25 @@ class Grid:
     ----------
     images : sequence of Image
         Of three coefficients each.
-    steps : int
-        Of a share.
+    places : Image
+        Of shares among the knots of masks.
+    strides : sequence of int
+        How far apart points of neighbouring knots are, by mask.
     weights : sequence of float
         Of the masks' shares in the share of all doses.
     """
 
     images: Sequence[bpy.types.Image]
-    steps: int
+    places: bpy.types.Image
+    strides: Sequence[int]
     weights: Sequence[float]
-
-
-@dataclass(frozen=True, eq=False)
-class Palette:
-    """Coefficients by texels, as `blender_addon.model.palette` has them.
-
-    Attributes
-    ----------
-    index : Image
-        Which of the palette each texel has.
-    images : sequence of Image
-        The palette: of three values each, the last of which is the share of all doses.
-    uv_map : str
-        Where the texels lie; empty for the map that renders.
-    """
-
-    index: bpy.types.Image
-    images: Sequence[bpy.types.Image]
-    uv_map: str
-
-
-def on_mesh(name: str, basis: Basis, names: Sequence[str]) -> bpy.types.NodeTree:
-    """Nodes that read coefficients, and last the share of all doses, from attributes."""
-    made = _Tree(name, names)
-    coefficients: list[Any] = []
-    for number, attribute in enumerate(names[:-1]):
-        read = made.attribute(attribute, f"Coefficients {number + 1}", (200, -400 - 400 * number))
-        parts = made.parts(read.outputs["Color"], (400, -400 - 400 * number))
-        coefficients += [*parts, read.outputs["Alpha"]]
-    share = made.attribute(names[-1], "Share of all doses", (200, -800 - 400 * len(names)))
-    return made.finished(basis, coefficients, share.outputs["Fac"])
 
 
 def over_shares(
     name: str, basis: Basis, grid: Grid, masks: Sequence[ShownMask], changes: Changes
 ) -> bpy.types.NodeTree:
     """Nodes that read masks, and coefficients by their shares."""
-    made = _Tree(name, ())
+    made = _Tree(name)
     shares = []
     for number, mask in enumerate(masks):
         share = mask_nodes.added(made.tree, mask, changes, f"mask_{number}_")
@@ -105,37 +75,16 @@ def over_shares(
     whole = None
     for share, weight in zip(shares, grid.weights, strict=True):
         whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole or 0.0)
-    coefficients = [part for texel in _texels(made, grid, shares) for part in texel]
-    return made.finished(basis, coefficients, whole)
-
-
-def over_texels(name: str, basis: Basis, palette: Palette) -> bpy.types.NodeTree:
-    """Nodes that read which tan the four nearest texels have, and the coefficients of those."""
-    made = _Tree(name, ())
-    uv = made.node("ShaderNodeUVMap", "UV map of the texels")
-    uv.uv_map = palette.uv_map
-    columns, rows = palette.index.size
-    place = made.scaled(uv.outputs["UV"], (columns, rows, 0.0), (-0.5, -0.5, 0.0), "In texels")
-    low = made.vector("FLOOR", "Texel", place)
-    part = made.parts(made.vector("SUBTRACT", "Part of the next texel", place, low), made.at)
-    parts = [
-        (made.math("SUBTRACT", "Part of the texel", 1.0, part[axis]), part[axis]) for axis in (0, 1)
-    ]
-    size = palette.images[0].size
-    across, up = 1.0 / columns, 1.0 / rows
-    totals: list[Any] = [None] * len(palette.images)
-    for right, above in ((0, 0), (1, 0), (0, 1), (1, 1)):
-        offset = ((right + 0.5) * across, (above + 0.5) * up, 0.0)
-        texel = made.scaled(low, (across, up, 0.0), offset, "Middle of a texel")
-        index = made.image(palette.index, "Which tan", texel, closest=True)
-        scale, start = (255.0 / size[0], 255.0 / size[1], 0.0), (0.5 / size[0], 0.5 / size[1], 0.0)
-        colour = made.scaled(index, scale, start, "Place in the palette")
-        weight = made.math("MULTIPLY", "Part", parts[0][right], parts[1][above])
-        for number, image in enumerate(palette.images):
-            value = made.image(image, f"Palette {number + 1}", colour, closest=True)
-            totals[number] = made.sum(value, weight, totals[number])
-    *coefficients, share = [value for total in totals for value in made.parts(total, made.at)]
-    return made.finished(basis, coefficients, share)
+    day, part = made.day(basis)
+    points = _points(made, grid, shares, part, basis.parts)
+    coefficients: list[Any] = []
+    for number, image in enumerate(grid.images):
+        total = None
+        for place, weight in points:
+            label = f"Coefficients {3 * number + 1} to {3 * number + 3}"
+            total = made.sum(made.image(image, label, place, closest=True), weight, total)
+        coefficients += made.parts(total, made.at)
+    return made.finished(basis, day, coefficients, whole)
 
 
 def peeling_of_masks(
@@ -148,7 +97,7 @@ def peeling_of_masks(
     image : Image
         By days and shares of every mask, one mask above the other.
     """
-    made = _Tree(name, ())
+    made = _Tree(name)
     sockets = made.tree.interface
     sockets.new_socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
     sockets.new_socket("Peeling", in_out="OUTPUT", socket_type="NodeSocketVector")
@@ -166,70 +115,83 @@ def peeling_of_masks(
     return made.tree
 
 
-def _texels(made: "_Tree", grid: Grid, shares: Sequence[Any]) -> Iterator[Sequence[Any]]:
-    """Three coefficients at a time."""
-    steps = grid.steps
-    x = made.math(
-        "MULTIPLY_ADD", "Column of the share", shares[0], (steps - 1.0) / steps, 0.5 / steps
-    )
-    sliced = len(shares) > SLICED
-    taps = _slices(made, steps, shares[1], shares[2]) if sliced else [(shares[1], 0.0, None)]
-    slices = steps if sliced else 1
-    step = (steps - 1.0) / (steps * slices)
-    places = []
-    for share, number, weight in taps:
-        start = 0.5 / (steps * slices)
-        if sliced:
-            start = made.math("MULTIPLY_ADD", "Row of the slice", number, 1.0 / slices, start)
-        y = made.math("MULTIPLY_ADD", "Row of the share", share, step, start)
-        places.append((made.place(x, y), weight))
-    for number, image in enumerate(grid.images):
-        total = None
-        for place, weight in places:
-            texel = made.image(image, f"Coefficients {3 * number + 1} to {3 * number + 3}", place)
-            total = texel if weight is None else made.sum(texel, weight, total)
-        yield made.parts(total, made.at)
+def _points(
+    made: "_Tree", grid: Grid, shares: Sequence[Any], part: Any, parts: int
+) -> list[tuple[Any, Any]]:
+    """Places in an image of the points around some shares, in a part of the days; their weights."""
+    columns, rows = grid.places.size
+    first, along = None, []
+    for mask, (share, stride) in enumerate(zip(shares, grid.strides, strict=True)):
+        x = made.math("MULTIPLY_ADD", "Step", share, (columns - 1) / columns, 0.5 / columns)
+        place = made.place(x, (mask + 0.5) / rows)
+        told = made.parts(made.image(grid.places, "Knot", place, closest=True), made.at)
+        first = made.math("MULTIPLY_ADD", "First point", told[0], float(stride), first or 0.0)
+        along.append(told[1])
+    ordered = _descending(made, along)
+    last = made.math("ADD", "Last point", first, float(sum(grid.strides)))
+    size = grid.images[0].size
+    start = made.math("MULTIPLY_ADD", "Row of the part", part, 1.0 / parts, 0.5 / size[1])
+    points = []
+    for k, (before, after) in enumerate(zip([1.0, *ordered], [*ordered, 0.0], strict=True)):
+        number = last if k else first
+        # With the last one every mask is at its next knot.
+        for own, stride in zip(along, grid.strides, strict=True) if 0 < k < len(along) else ():
+            is_less = made.math("LESS_THAN", "Whether it goes later", own, before)
+            number = made.math("MULTIPLY_ADD", "Point", is_less, -float(stride), number)
+        weight = made.math("SUBTRACT", "Weight of the point", before, after)
+        points.append((_texel(made, number, size, start), weight))
+    return points
 
 
-def _slices(made: "_Tree", steps: int, share: Any, across: Any) -> list[tuple[Any, Any, Any]]:
-    """Of the slices below and above: the share in it, its number, its weight."""
-    place = made.math("MULTIPLY", "Slice of the share", across, steps - 1.0)
-    whole = made.math("FLOOR", "Slice", place)
-    below = made.math("MINIMUM", "Slice below", whole, steps - 2.0)
-    part = made.math("SUBTRACT", "Part of the slice above", place, below)
-    rest = made.math("SUBTRACT", "Part of the slice below", 1.0, part)
-    odd = made.math("MODULO", "Whether it is upside down", below, 2.0)
-    other = made.math("SUBTRACT", "Whether the one above is", 1.0, odd)
-    above = made.math("ADD", "Slice above", below, 1.0)
-    return [
-        (_turned(made, odd, share), below, rest),
-        (_turned(made, other, share), above, part),
-    ]
+def _descending(made: "_Tree", values: Sequence[Any]) -> list[Any]:
+    """Values in descending order."""
+    ordered: list[Any] = []
+    for value in values:
+        smaller = value
+        for place, other in enumerate(ordered):
+            ordered[place] = made.math("MAXIMUM", "Order", other, smaller)
+            smaller = made.math("MINIMUM", "Order", other, smaller)
+        ordered.append(smaller)
+    return ordered
 
 
-def _turned(made: "_Tree", odd: Any, share: Any) -> Any:
-    """The share, or what it lacks of 1 where a slice is upside down."""
-    less = made.math("SUBTRACT", "Upside down", odd, share)
-    return made.math("ABSOLUTE", "Share in the slice", less)
+def _texel(made: "_Tree", number: Any, size: Sequence[int], start: Any) -> Any:
+    """The middle of a texel that has a number, row by row from a start."""
+    columns, rows = size
+    place = made.math("MULTIPLY_ADD", "Place", number, 1.0 / columns, 0.5 / columns)
+    row = made.math("FLOOR", "Row", place)
+    y = made.math("MULTIPLY_ADD", "Row", row, 1.0 / rows, start)
+    return made.place(made.math("SUBTRACT", "Column", place, row), y)
 
 
 class _Tree:
     """A group of nodes that is being made."""
 
-    def __init__(self, name: str, attributes: Sequence[str]) -> None:
+    def __init__(self, name: str) -> None:
         self.tree: Any = bpy.data.node_groups.new(name, "ShaderNodeTree")
-        self.tree[ATTRIBUTES_KEY] = json.dumps(list(attributes))
+        self.tree[ATTRIBUTES_KEY] = "[]"
         self.at = (0, 0)
 
-    def finished(self, basis: Basis, coefficients: Sequence[Any], share: Any) -> Any:
+    def day(self, basis: Basis) -> tuple[Any, Any]:
+        """The row of the day that shows among those of all parts, from 0 to 1; and the part."""
+        socket = self.tree.interface.new_socket
+        socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
+        given = self.node("NodeGroupInput", "")
+        place = self.parts(self.image(basis.days, "Rows of days", given.outputs[0]), self.at)[1]
+        rows, step = basis.rows.size[1], float(basis.step)
+        count = rows - basis.parts + 1
+        passed = self.math("MULTIPLY_ADD", "Parts passed", place, count / step, -0.5 / step)
+        whole = self.math("FLOOR", "Part of the day", passed)
+        part = self.math("MINIMUM", "Part", whole, basis.parts - 1.0)
+        own = self.math("MULTIPLY_ADD", "Row", place, count / rows, 0.0)
+        return self.math("MULTIPLY_ADD", "Row among all", part, 1.0 / rows, own), part
+
+    def finished(self, basis: Basis, row: Any, coefficients: Sequence[Any], share: Any) -> Any:
         """The tree, which adds up mean and shapes by the coefficients."""
         tree, sockets = self.tree, self.tree.interface
-        sockets.new_socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
         sockets.new_socket("State", in_out="OUTPUT", socket_type="NodeSocketVector")
         sockets.new_socket("Share", in_out="OUTPUT", socket_type="NodeSocketFloat")
-        given, end = self.node("NodeGroupInput", ""), self.node("NodeGroupOutput", "")
-        day = self.image(basis.days, "Rows of days", given.outputs["Day"])
-        row = self.parts(day, (-500, 0))[1]
+        end = self.node("NodeGroupOutput", "")
         total = None
         for k, coefficient in enumerate((None, *coefficients)):
             x = (k + 0.5) / (basis.rank + 1)
@@ -243,11 +205,6 @@ class _Tree:
         node = self.tree.nodes.new(kind)
         self.at = at or (self.at[0] + 200, self.at[1] - 40)
         node.label, node.location, node[ROLE_KEY] = label, self.at, "basis"
-        return node
-
-    def attribute(self, name: str, label: str, at: tuple[int, int]) -> Any:
-        node = self.node("ShaderNodeAttribute", label, at)
-        node.attribute_type, node.attribute_name = "GEOMETRY", name
         return node
 
     def image(
@@ -288,10 +245,6 @@ class _Tree:
             self._give(end, value)
         return node.outputs[0]
 
-    def scaled(self, vector: Any, scale: tuple, offset: tuple, label: str) -> Any:
-        """A vector times numbers, and others added."""
-        return self.vector("MULTIPLY_ADD", label, vector, scale, offset)
-
     def sum(self, vector: Any, weight: Any, former: Any) -> Any:
         """A weighted vector, and what is there before."""
         node = self.node("ShaderNodeVectorMath", "Add")
@@ -303,7 +256,7 @@ class _Tree:
         return node.outputs[0]
 
     def _give(self, end: Any, value: Any) -> None:
-        if isinstance(value, float | int | tuple):
+        if isinstance(value, float):
             end.default_value = value
         else:
             self.tree.links.new(value, end)

@@ -1,32 +1,26 @@
-"""Two or three masks, which the shader reads: every place is as simulating its shares gives."""
-
-from dataclasses import replace
+"""Several masks, which the shader reads: every place is as simulating its shares gives."""
 
 import bpy
 import numpy as np
 import pytest
-from masked_body import NAMES, body_of_masks, expected, rendered
+from masked_body import NAMES, body_of_masks, expected, few_points, rendered
 from scenes import apply, tan_group
 
-from blender_addon.model import tan as tans
-from blender_addon.model.grid import FULL_GRID, coefficients_at, images_of, shares_of_grid
 from hylios.colour_difference import ciede2000, lab
 
 SHARES = np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0.35, 1], [1, 0.8]])
 """Of two masks, by square."""
+
+FOUR = np.array([[0, 0, 0.3, 1], [1, 0, 1, 0.6], [0, 1, 0, 1]])
+"""Of four masks."""
 
 FRAME = 120
 
 
 @pytest.fixture(autouse=True, scope="module")
 def coarse():
-    """Fewer steps of a share, with which all is computed faster, and once for all tests."""
-    steps = replace(FULL_GRID, steps={2: 65, 3: 9})
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(tans, "FULL_GRID", steps)
-        tans._over_shares.cache_clear()
+    with few_points():
         yield
-    tans._over_shares.cache_clear()
 
 
 @pytest.fixture
@@ -89,24 +83,26 @@ def hard_image(name: str, texels: np.ndarray) -> bpy.types.Image:
     return made
 
 
-def test_an_image_is_right_at_every_texel(body, tmp_path):
-    """One mask a hard-edged image, the other an attribute."""
+@pytest.mark.parametrize("shares", [SHARES, FOUR], ids=["two", "four"])
+def test_an_image_is_right_at_every_texel(table_path, shares, tmp_path):
+    """One mask a hard-edged image, the others attributes."""
+    body = body_of_masks(table_path, shares)
     texels = np.random.default_rng(2).random((12, 12)).round()
     add_uv(body)
     body.skin_tan.exposures[0].mask.image = hard_image("Straps", texels)
     apply(body)
     bpy.context.scene.frame_set(FRAME)
     seen = rendered(body, tmp_path, columns=12, rows=12)
-    shares = np.stack(
-        [np.tile(texels[::-1], (1, len(SHARES))), np.tile(np.repeat(SHARES[:, 1], 12), (12, 1))],
-        axis=-1,
-    )
-    error = errors(body, seen, shares)
-    assert error.mean() < 0.05 and np.quantile(error, 0.99) < 0.3
-    assert np.ptp(seen[..., 0]) > 0.05
+    own = np.tile(np.repeat(shares, 12, axis=0), (12, 1, 1))
+    own[..., 0] = np.tile(texels[::-1], (1, len(shares)))
+    error = errors(body, seen, own)
+    assert error.mean() < 0.05 and error.max() < 0.3
+    assert np.ptp(seen[..., 0]) > 0.02
 
 
-def test_tiles(body, tmp_path):
+def test_tiles(table_path, tmp_path):
+    """With four masks."""
+    body = body_of_masks(table_path, FOUR)
     folder = tmp_path / "tiles"
     for tile, value in ((1001, 1.0), (1002, 0.0)):
         image = hard_image("tile", np.full((4, 4), value))
@@ -122,7 +118,8 @@ def test_tiles(body, tmp_path):
     apply(body)
     bpy.context.scene.frame_set(FRAME)
     seen = rendered(body, tmp_path)[1, 1:6:3]
-    assert errors(body, seen, np.array([[1.0, 0.0], [0.0, 0.0]])).max() < 0.15
+    shares = np.concatenate([[[1.0], [0.0]], FOUR[:2, 1:]], axis=1)
+    assert errors(body, seen, shares).max() < 0.3
 
 
 def test_painting_shows_without_apply(body, tmp_path):
@@ -135,25 +132,16 @@ def test_painting_shows_without_apply(body, tmp_path):
     assert errors(body, seen, painted).max() < 0.15
 
 
-def test_three_masks(table_path, tmp_path):
-    """At steps of the shares, of which there are few here."""
+@pytest.mark.parametrize("masks", [3, 4])
+def test_more_masks(table_path, masks, tmp_path):
+    """Bare or covered by any mask, and in the soft edge of one."""
     random = np.random.default_rng(3)
-    shares = random.integers(0, 9, (6, 3)) / 8.0
+    shares = random.integers(0, 2, (6, masks)).astype(float)
+    shares[np.arange(6), random.integers(0, masks, 6)] = random.random(6)
     body = body_of_masks(table_path, shares)
     apply(body)
     bpy.context.scene.frame_set(FRAME)
-    assert errors(body, rendered(body, tmp_path)[1, 1::3], shares).max() < 0.25
-
-
-@pytest.mark.parametrize("masks", [2, 3])
-def test_neighbours_in_an_image_are_of_neighbouring_shares(masks):
-    """An engine that takes the mean of texels, as from far away, mixes no tans that are unlike."""
-    shares = shares_of_grid(masks, 5)
-    first, *_ = images_of(np.pad(shares, ((0, 0), (0, 3 - masks))), masks, 5)
-    for axis in (0, 1):
-        assert np.abs(np.diff(first, axis=axis)).sum(axis=-1) == pytest.approx(0.25)
-    places = np.random.default_rng(5).random((50, masks))
-    assert coefficients_at([first], places)[:, :masks] == pytest.approx(places)
+    assert errors(body, rendered(body, tmp_path)[1, 1::3], shares).max() < 0.3
 
 
 def test_it_renders_the_same_after_saving_without_the_add_on(body, tmp_path):
@@ -172,7 +160,7 @@ def counts() -> tuple[int, ...]:
 
 
 def test_masks_come_and_go(table_path, tmp_path):
-    """From two to four, which attributes carry, and back, and to one: nothing is left over."""
+    """From two to four, and back, and to one: nothing is left over."""
     shares = np.random.default_rng(4).random((3, 4)).round(1)
     body = body_of_masks(table_path, shares)
     own = body.skin_tan.exposures

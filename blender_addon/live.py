@@ -27,7 +27,7 @@ from .model.tan import history_of, look_of, peeling_of
 from .props import settings_of
 from .scene import images, nodes, several
 from .scene.ownership import Users
-from .several import has_several
+from .several import has_several, is_at_hand
 
 LOOK_VALUES = {"colour": "colour", "bend": "bend", "bow": "bow", "near": "near", "width": "far"}
 """Names of a look's values by the role of the image that shows them."""
@@ -37,6 +37,9 @@ REST_SECONDS = 0.3
 
 BUSY_SECONDS = 0.2
 """While Blender renders, a change waits so long before it looks again."""
+
+AHEAD_SECONDS = 0.1
+"""While a thread computes, a change waits so long before it looks again."""
 
 
 @persistent
@@ -81,7 +84,8 @@ def after_loading(*_: Any) -> None:
 def before_saving(*_: Any) -> None:
     """Handler: nothing is saved that only shows until the file is closed."""
     if not bpy.app.background:
-        make_exact()
+        scene = _scene()
+        _show(_stale(scene), scene, FULL)
 
 
 def show_changes() -> float | None:
@@ -95,12 +99,25 @@ def show_changes() -> float | None:
 
 
 def make_exact() -> float | None:
-    """Timer: make exact and lasting what has changed; the seconds until it must be called again."""
+    """Timer: make exact and lasting what has changed; the seconds until it must be called again.
+
+    What takes seconds a thread computes ahead, so that Blender goes on.
+    """
     if bpy.app.is_job_running("RENDER"):
         return BUSY_SECONDS
     scene = _scene()
-    _show(_stale(scene), scene, FULL)
-    return None
+    stale = _stale(scene)
+    ready = [obj for obj in stale if not timers.are_called() or _is_ready(obj)]
+    _show(ready, scene, FULL)
+    return None if len(ready) == len(stale) else AHEAD_SECONDS
+
+
+def _is_ready(obj: bpy.types.Object) -> bool:
+    """Whether an object's settings are made exact at once, as those that are refused are."""
+    try:
+        return is_at_hand(obj)
+    except InputError:
+        return True
 
 
 def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Precision) -> None:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import bpy
 
 from .model import basis, grid
+from .model.ahead import Ahead
 from .model.basis import Basis
 from .model.tan import basis_of
 from .props import settings_of
@@ -12,6 +13,8 @@ from .scene import images, mask_values, several, several_nodes
 from .scene.changes import Changes
 from .scene.mask_nodes import ShownMask, shown_mask
 from .scene.masks import Mask
+
+AHEAD = Ahead(basis_of)
 
 
 def has_several(obj: bpy.types.Object) -> bool:
@@ -35,6 +38,13 @@ def computed(obj: bpy.types.Object, *, rough: bool = False) -> Basis | None:
     if not has_several(obj):
         return None
     return basis_of(settings_of(obj).values(), which_masks(obj), rough=rough)
+
+
+def is_at_hand(obj: bpy.types.Object) -> bool:
+    """Whether `computed` takes no time; else a thread begins with it."""
+    if not has_several(obj):
+        return True
+    return AHEAD.is_at_hand(settings_of(obj).values(), tuple(which_masks(obj)))
 
 
 def show(

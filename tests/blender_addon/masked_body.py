@@ -22,7 +22,7 @@ NAMES = ("bikini", "shirt", "shorts", "socks")
 @contextmanager
 def few_points():
     """Fewer points over the shares, with which all is computed faster, and once for all tests."""
-    fewer = replace(tans.FULL_BASIS, points=12_000, steps=128)
+    fewer = replace(tans.FULL_BASIS, points=8000, steps=128, rows=96)
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(tans, "FULL_BASIS", fewer)
         tans._basis.cache_clear()

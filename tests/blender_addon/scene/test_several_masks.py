@@ -1,6 +1,7 @@
 """A mask for every exposure: what Apply makes of four, and takes away again."""
 
 import json
+import threading
 
 import bpy
 import numpy as np
@@ -10,6 +11,7 @@ from masked_body import expected as simulated
 from masked_body import rendered as pixels_of
 from scenes import add_mask, apply, of_role, tan_group, tan_object
 
+from blender_addon import applied, live, timers
 from blender_addon.scene import masks
 
 SHARES = np.array(
@@ -142,3 +144,19 @@ def test_what_an_earlier_version_wrote_onto_the_mesh_goes(body):
     assert own_attributes(body) == [name]
     apply(body)
     assert not own_attributes(body) and "skin_tan_basis" not in body.data
+
+
+def test_live_becomes_exact_without_a_wait(body, monkeypatch):
+    """A thread computes what takes seconds; until then the rough picture stays."""
+    monkeypatch.setattr(timers, "are_called", lambda: True)
+    monkeypatch.setattr(timers, "wait", lambda *_: None)
+    apply(body)
+    body.skin_tan.exposures[0].dose = 45.0
+    live.show_changes()
+    assert live.make_exact() == live.AHEAD_SECONDS
+    assert applied.is_changed(body, bpy.context.scene)
+    for thread in threading.enumerate():
+        if thread.daemon:
+            thread.join(10.0)
+    assert live.make_exact() is None
+    assert not applied.is_changed(body, bpy.context.scene)

@@ -1,0 +1,38 @@
+"""Results that are computed in a thread before they are needed."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from threading import Thread
+from typing import Any
+
+from hylios.errors import InputError
+
+
+class Ahead:
+    """A function that keeps its results, called ahead in a thread, one call after the other.
+
+    Parameters
+    ----------
+    function : callable
+        Of arguments that can be compared. Where it raises InputError it does so again when called.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._function = function
+        self._thread: Thread | None = None
+        self._arguments: tuple[Any, ...] | None = None
+
+    def is_at_hand(self, *arguments: Any) -> bool:
+        """Whether the last call was with these arguments, and is done; else it begins soon."""
+        if self._thread is not None and self._thread.is_alive():
+            return False
+        if arguments == self._arguments:
+            return True
+        self._arguments = arguments
+        self._thread = Thread(target=self._call, args=arguments, daemon=True)
+        self._thread.start()
+        return False
+
+    def _call(self, *arguments: Any) -> None:
+        with suppress(InputError):
+            self._function(*arguments)

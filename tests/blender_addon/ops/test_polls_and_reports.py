@@ -51,7 +51,7 @@ def test_buttons_say_what_is_missing(table_path, name, sentence):
 @pytest.mark.parametrize("name", ["export_exposures", "export_schedule", "import_exposures"])
 def test_without_a_file_a_sentence(table_path, name):
     tan_object(table_path)
-    with pytest.raises(RuntimeError, match="No file is chosen; choose a CSV file"):
+    with pytest.raises(RuntimeError, match="No file is chosen; choose one"):
         getattr(bpy.ops.skin_tan, name)(filepath="")
 
 

@@ -88,7 +88,7 @@ class BasisPrecision:
 FULL = BasisPrecision(30_000, 0.001, 256, 3, 192, 4, ranks=(3, 6, 9, 12))
 """For what stays in a file."""
 
-DRAG = BasisPrecision(6_000, 0.004, 64, 1, 80, 1, ranks=(9,))
+DRAG = BasisPrecision(4_000, 0.004, 64, 1, 160, 1, ranks=(12,))
 """For a picture while somebody changes a setting."""
 
 

@@ -157,15 +157,8 @@ def take_out(group: Any, changes: Changes) -> None:
     changes.may_relink(group)
     ours = {role: list(nodes.of_role(group, role)) for role in ROLES}
     replaced.link_again(group, REPLACED, ROLES)
-    changes.at_the_end(partial(_remove_nodes, group, [n for made in ours.values() for n in made]))
-
-
-def _remove_nodes(group: Any, going: Iterable[Any]) -> None:
-    """Remove nodes of regions from a group, and their own group where nothing shows it."""
-    for node in list(going):
-        tree = getattr(node, "node_tree", None)
-        group.nodes.remove(node)
-        _remove_unused(tree)
+    going = [node for made in ours.values() for node in made]
+    changes.at_the_end(partial(replaced.remove_nodes, group, going))
 
 
 def _is_up_to_date(tree: Any, shown: list) -> bool:
@@ -199,13 +192,8 @@ def _replaced(group: Any, tree: Any, changes: Changes) -> Any:
     changes.may_relink(group)
     is_early = False
     for node in nodes.of_role(group, "regions"):
-        former = node.node_tree
         is_early |= region_nodes.LIGHT not in node.outputs
-        ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
-        changes.set(node, "node_tree", tree)
-        for name, end in ends:
-            group.links.new(node.outputs[name], end)
-        changes.at_the_end(partial(_remove_unused, former))
+        replaced.show_tree(group, node, tree, changes)
     if is_early:
         _add_later(group, changes)
     return next(nodes.of_role(group, "regions"))
@@ -217,8 +205,3 @@ def _add_later(group: Any, changes: Changes) -> None:
     for role in LATER:
         nodes.new_node(group, role, ROLES)
     _link(group, LATER, OF_LATER)
-
-
-def _remove_unused(tree: Any) -> None:
-    if tree is not None and tree.users == 0:
-        bpy.data.node_groups.remove(tree)

@@ -1,9 +1,17 @@
-"""Links of a tan's group whose place those of other nodes take, and that come back without them."""
+"""What in a tan's group takes the place of something else, and goes again.
+
+Links whose place those of other nodes take, and that come back without them; groups that a node
+shows in place of others.
+"""
 
 from collections.abc import Container, Iterable
+from functools import partial
 from typing import Any
 
+import bpy
+
 from . import nodes
+from .changes import Changes
 from .plan import ROLE_KEY, Link
 
 
@@ -24,3 +32,26 @@ def link_again(group: Any, replaced: Iterable[Link], roles: Container[str]) -> N
             if any(former.from_node.get(ROLE_KEY) in roles for former in end.links):
                 for start in nodes.of_role(group, source):
                     group.links.new(nodes.find_output(start, output), end)
+
+
+def show_tree(group: Any, node: Any, tree: Any, changes: Changes) -> None:
+    """Have a node of a group show another tree; what its outputs lead to stays, by their names."""
+    former = node.node_tree
+    ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
+    changes.set(node, "node_tree", tree)
+    for name, end in ends:
+        group.links.new(node.outputs[name], end)
+    changes.at_the_end(partial(_remove_unused, former))
+
+
+def remove_nodes(group: Any, going: Iterable[Any]) -> None:
+    """Remove nodes from a group, and the trees in them that nothing else shows."""
+    for node in list(going):
+        tree = getattr(node, "node_tree", None)
+        group.nodes.remove(node)
+        _remove_unused(tree)
+
+
+def _remove_unused(tree: Any) -> None:
+    if tree is not None and tree.users == 0:
+        bpy.data.node_groups.remove(tree)

@@ -16,10 +16,12 @@ import bpy
 
 from . import several_nodes
 from .changes import Changes
+from .images import remove_if_unused
 from .mask_nodes import ShownMask
 from .nodes import new_node, of_role
 from .ownership import remembered
 from .plan import Role
+from .replaced import remove_nodes, show_tree
 from .several_nodes import ATTRIBUTES_KEY, Basis, Grid
 from .vertex_groups import remove_attribute
 
@@ -68,22 +70,12 @@ def show(
         node = new_node(group, "basis", BASIS)
         node.node_tree = tree
     else:
-        _put(group, node, tree, changes)
+        show_tree(group, node, tree, changes)
     for output, (role, former_output) in REPLACED.items():
         _bridge(group, role, former_output, node, output)
     for row in of_role(group, "row"):
         group.links.new(row.outputs[0], node.inputs["Day"])
     return _replaced(group, made, changes)
-
-
-def _put(group: Any, node: Any, tree: Any, changes: Changes) -> None:
-    """Have the node show another tree."""
-    former = node.node_tree
-    ends = [(end.name, link.to_socket) for end in node.outputs for link in end.links]
-    changes.set(node, "node_tree", tree)
-    for name, end in ends:
-        group.links.new(node.outputs[name], end)
-    changes.at_the_end(partial(_remove_unused, former))
 
 
 def _replaced(
@@ -92,21 +84,20 @@ def _replaced(
     """Remember the images of a basis; by the former ones, what takes their place."""
     replaced = {}
     for role, key in IMAGE_KEYS.items():
-        former, image = group.get(key), made.get(role)
+        image = made.get(role)
         if image is None:
             _forget(group, key, changes)
-            changes.at_the_end(partial(_remove_images, [former] if former else []))
         else:
-            if former is not None:
+            if (former := group.get(key)) is not None:
                 replaced[former] = image
             changes.set_key(group, key, image)
     return replaced
 
 
 def _forget(group: Any, key: str, changes: Changes) -> None:
-    if key in group:
-        changes.on_failure(group.__setitem__, key, group[key])
-        del group[key]
+    image = changes.pop_key(group, key)
+    if image is not None:
+        changes.at_the_end(partial(remove_if_unused, image))
 
 
 def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes) -> None:
@@ -116,11 +107,9 @@ def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes)
         for node in of_role(group, "basis"):
             for output, (role, own) in REPLACED.items():
                 _hand_back(group, node, output, role, own)
-            changes.at_the_end(partial(_remove_node, group, node))
-    images = made_images(group)
+            changes.at_the_end(partial(remove_nodes, group, [node]))
     for key in IMAGE_KEYS.values():
         _forget(group, key, changes)
-    changes.at_the_end(partial(_remove_images, images))
     remove_attributes(obj, group, changes)
 
 
@@ -157,9 +146,8 @@ def _own(mesh: bpy.types.Mesh) -> list[str]:
 def _remember(mesh: bpy.types.Mesh, names: Sequence[str], changes: Changes) -> None:
     if names:
         changes.set_key(mesh, ATTRIBUTES_KEY, json.dumps(names))
-    elif ATTRIBUTES_KEY in mesh:
-        changes.on_failure(mesh.__setitem__, ATTRIBUTES_KEY, mesh[ATTRIBUTES_KEY])
-        del mesh[ATTRIBUTES_KEY]
+    else:
+        changes.pop_key(mesh, ATTRIBUTES_KEY)
 
 
 def _of_others(obj: bpy.types.Object, own: bpy.types.NodeTree | None) -> set[str]:
@@ -196,20 +184,3 @@ def _hand_back(group: Any, node: Any, output: str, role: str, own: str) -> None:
     for end in [link.to_socket for link in given.links] if given else []:
         for source in of_role(group, role):
             group.links.new(source.outputs[own], end)
-
-
-def _remove_node(group: Any, node: Any) -> None:
-    tree = node.node_tree
-    group.nodes.remove(node)
-    _remove_unused(tree)
-
-
-def _remove_unused(tree: Any) -> None:
-    if tree is not None and tree.users == 0:
-        bpy.data.node_groups.remove(tree)
-
-
-def _remove_images(images: Sequence[bpy.types.Image]) -> None:
-    for image in images:
-        if image.users == 0:
-            bpy.data.images.remove(image)

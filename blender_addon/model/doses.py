@@ -29,7 +29,7 @@ from .settings import (
     Exposure,
 )
 
-ANY_YEAR = 2025  # the sun stands nearly alike in all
+ANY_YEAR, LEAP_YEAR = 2025, 2024  # the sun stands nearly alike in all
 
 
 def received(exposures: Iterable[Exposure], mmd: float, provenance: Mapping[str, Any]) -> Doses:
@@ -140,7 +140,7 @@ def begin(exposure: Exposure) -> int:
 
 
 def require_date(month: int, day: int) -> date:
-    """A day of any year.
+    """A day of any year; 29 February is of a leap year.
 
     Raises
     ------
@@ -149,12 +149,12 @@ def require_date(month: int, day: int) -> date:
     """
     require_whole("month", month, 1, 12)
     require_whole("day of the month", day, 1, 31)
-    last = calendar.monthrange(ANY_YEAR, month)[1]
+    last = calendar.monthrange(LEAP_YEAR, month)[1]
     if day > last:
         raise InputError(
             f"day of the month is {day}, which month {month} lacks; allowed is 1 to {last}."
         )
-    return date(ANY_YEAR, month, day)
+    return date(LEAP_YEAR if (month, day) == (2, 29) else ANY_YEAR, month, day)
 
 
 def require_hours(first: float, last: float) -> None:

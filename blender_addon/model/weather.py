@@ -79,7 +79,10 @@ def _of_forecast(
     spans = [(24.0 * number + first, 24.0 * number + last) for number in range(count)]
     doses = [float(of_forecast(forecast, *span).erythemal.sum()) for span in spans]
     names = [(forecast.day + timedelta(days=number)).isoformat() for number in range(count)]
-    return _with_sun(doses, names, first), file_notes.of_forecast(forecast, spans)
+    notes = file_notes.of_forecast(forecast, spans)
+    if count < days:
+        notes.insert(0, f"{forecast.name} holds {count} of the {days} days")
+    return _with_sun(doses, names, first), notes
 
 
 def _with_sun(doses: list[float], names: list[str], first: float) -> list[dict[str, Any]]:

@@ -1,12 +1,13 @@
 """The buttons that read the list of exposures from files, and write it."""
 
+import math
 from pathlib import Path
 from typing import Any, cast
 
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from hylios.errors import InputError
+from hylios.errors import InputError, require_range
 from hylios.files import require_target, written_beside
 
 from ..apply import tannable
@@ -14,7 +15,7 @@ from ..model.exposures_csv import ReadSchedule, exposures_text, read_exposures
 from ..model.schedule import csv_text
 from ..model.settings import LAST_DAY_LIMIT, USUAL_DATE, USUAL_HOURS
 from ..model.weather import weather_exposures
-from ..props import settings_of
+from ..props import SkinTanSettings, settings_of
 from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
 from .reports import finished
 
@@ -103,6 +104,7 @@ class _Reads(ImportHelper):
         settings = active_settings(context)
         try:
             read = self.read(_path_of(self))
+            start = 0.0 if self.replace else self.start_beside(settings, read)
         except InputError as error:
             cast(Any, self).report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -112,6 +114,7 @@ class _Reads(ImportHelper):
             exposure = settings.exposures.add()
             for name, value in values.items():
                 setattr(exposure, name, value)
+            exposure.day += start
         settings.exposure_index = max(0, len(settings.exposures) - 1)
         said = " ".join([f"Read times in the sun: {len(read.exposures)}.", *read.remarks])
         cast(Any, self).report({"INFO"}, said)
@@ -120,6 +123,10 @@ class _Reads(ImportHelper):
     def read(self, path: Path) -> ReadSchedule:
         """What a file says; InputError if it cannot be used."""
         raise NotImplementedError
+
+    def start_beside(self, settings: SkinTanSettings, read: ReadSchedule) -> float:
+        """Day that is a file's day 0 beside what is listed; InputError if days end too late."""
+        return 0.0
 
 
 class SKIN_TAN_OT_import_exposures(_Reads, bpy.types.Operator):  # noqa: N801
@@ -162,7 +169,8 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         name="Days",
         description="How many days in a row the skin is in the sun",
         default=7,
-        min=1,
+        min=0,
+        soft_min=1,
         max=int(LAST_DAY_LIMIT),
     )
     from_hour: bpy.props.FloatProperty(
@@ -194,3 +202,12 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
             first=self.from_hour,
             last=self.to_hour,
         )
+
+    def start_beside(self, settings: SkinTanSettings, read: ReadSchedule) -> float:
+        """The day after the last that is listed, as + has it."""
+        if not settings.exposures:
+            return 0.0
+        start = math.floor(max(exposure.day for exposure in settings.exposures)) + 1.0
+        end = start + max(values["day"] for values in read.exposures)
+        require_range("day of the last time in the sun", end, 0.0, LAST_DAY_LIMIT)
+        return start

@@ -15,7 +15,7 @@ settings = obj.skin_tan
 
 SKIN = (
     *("skin", "table_path", "biology", "own_minimal_doses", "mmd", "med"),
-    *("kinetics", "redness", "peeling"),
+    *("kinetics", "redness", "peeling", "darkening"),
 )
 SCHEDULE = ("first_day", "last_day", "exposures")
 """Names of what a preset of a skin and of a schedule holds."""

@@ -143,6 +143,8 @@ def forecast_of(lines: Sequence[str], name: str) -> Forecast:
         indices = [None if math.isnan(number) else number for number in numbers]
         entries = [f"line {line}" for line in table.lines]
     present = [number for number, index in enumerate(indices) if index is not None]
+    if indices and not present:
+        raise InputError(f"{name} has no UV index: all {len(indices)} are missing; needed are two.")
     if len(present) < 2:
         raise InputError(f"{name} has {len(present)} UV indices; needed are two or more.")
     moments = [_moment(name, *both) for both in zip(times, entries, strict=True)]

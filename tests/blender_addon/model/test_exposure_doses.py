@@ -88,6 +88,14 @@ def test_thin_sunscreen_lets_through_the_root():
     assert thin.melanogenesis == pytest.approx([10.0 * 30.0**-0.25])
 
 
+def test_a_leap_day_lies_between_its_neighbours():
+    dates = ((2, 28), (2, 29), (3, 1))
+    before, leap, after = (
+        received(unit="SUN", month=month, day_of_month=day).erythemal.sum() for month, day in dates
+    )
+    assert before < leap <= after
+
+
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [

@@ -177,7 +177,7 @@ def test_an_exported_schedule(tmp_path):
         (exposures_text([]), "holds no time in the sun"),
         (
             "day,unit,amount,month,day_of_month\n0,sed,1,2,30\n1,sun,,2,30\n",
-            "3 no such sun: day of the month is 30, which month 2 lacks; allowed is 1 to 28",
+            "3 no such sun: day of the month is 30, which month 2 lacks; allowed is 1 to 29",
         ),
         (
             "day,unit,amount,from_hour,to_hour\n0,sun,,12,10\n",

@@ -56,7 +56,7 @@ def test_a_bad_file_changes_nothing(body, tmp_path):
 def test_apply_names_the_time_in_the_sun_that_cannot_be(body):
     first = body.skin_tan.exposures[0]
     first.unit, first.name, first.month, first.day_of_month = "SUN", "Carnival", 2, 30
-    with pytest.raises(RuntimeError, match="used, 'Carnival': day of the month is 30, .* 1 to 28"):
+    with pytest.raises(RuntimeError, match="used, 'Carnival': day of the month is 30, .* 1 to 29"):
         bpy.ops.skin_tan.apply()
 
 
@@ -105,4 +105,10 @@ def test_a_clear_week_of_an_epw_file_is_that_of_the_sun(body, tmp_path):
     assert second.dose == pytest.approx(first.dose, rel=0.01)
     with pytest.raises(RuntimeError, match="denver.epw has no row for the hour 12 of 6/24"):
         bpy.ops.skin_tan.import_weather(filepath=str(path), **(more | {"days": 4}))
+    with pytest.raises(RuntimeError, match="number of days is 0; allowed is 1 to"):
+        bpy.ops.skin_tan.import_weather(filepath=str(path), **(more | {"days": 0}))
     assert len(body.skin_tan.exposures) == 4
+    sun.day = 20.3
+    bpy.ops.skin_tan.import_weather(filepath=str(path), replace=False, **more)
+    added = [exposure.day - 11.0 / 24.0 for exposure in list(body.skin_tan.exposures)[4:]]
+    assert added == pytest.approx([21.0, 22.0, 23.0], abs=1e-5)

@@ -52,14 +52,14 @@ def test_a_skin_is_kept(table_path, user_presets):
     bpy.context.view_layer.objects.active = first
     first.skin_tan.own_minimal_doses, first.skin_tan.mmd = True, 9.5
     first.skin_tan.kinetics = "MEASURED"
-    first.skin_tan.redness = first.skin_tan.peeling = True
+    first.skin_tan.redness = first.skin_tan.peeling = first.skin_tan.darkening = True
     bpy.ops.skin_tan.skin_preset_add(name="Nora")
     (file,) = (user_presets / "skin").iterdir()
     bpy.context.view_layer.objects.active = second
     execute(file, "SKIN_TAN_PT_skin_presets")
     assert second.skin_tan.own_minimal_doses and second.skin_tan.mmd == 9.5
     assert second.skin_tan.kinetics == "MEASURED"
-    assert second.skin_tan.redness and second.skin_tan.peeling
+    assert second.skin_tan.redness and second.skin_tan.peeling and second.skin_tan.darkening
     assert second.skin_tan.table_path == str(table_path)
     assert second.skin_tan.exposures[0].dose == 30.0
 

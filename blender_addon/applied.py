@@ -123,6 +123,18 @@ def is_only_schedule_changed(former: str, now: str) -> bool:
     return former != now and former.split(SEPARATOR)[1:] == now.split(SEPARATOR)[1:]
 
 
+def is_sensitivity_changed(former: str, now: str) -> bool:
+    """Whether the doses from which skin tans and burns differ in two texts: the look lies along
+    the states that they lead to."""
+    return _sensitivity(former) != _sensitivity(now)
+
+
+def _sensitivity(text: str) -> list[object]:
+    """Whether doses are set by hand, and which: the first of a schedule."""
+    by_hand, *doses = ast.literal_eval(text.split(SEPARATOR)[0])[:3]
+    return doses if by_hand else []
+
+
 def is_only_biology_changed(former: str, now: str) -> bool:
     """Whether no setting but the biology differs in two texts."""
     schedule, *others = former.split(SEPARATOR)

@@ -138,7 +138,11 @@ def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precisio
     if settings.applied == text and _is_alone(obj) and _lasts(obj, text):
         _restore_look(obj, text)
         _restore(obj, text)
-    elif applied.is_only_schedule_changed(settings.applied, text) and _is_alone(obj):
+    elif (
+        applied.is_only_schedule_changed(settings.applied, text)
+        and (precision is DRAG or not applied.is_sensitivity_changed(settings.applied, text))
+        and _is_alone(obj)
+    ):
         _restore_look(obj, text)
         show_schedule(obj, text, precision)
     elif precision is DRAG and _is_only_look_changed(obj, text):

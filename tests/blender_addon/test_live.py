@@ -78,6 +78,17 @@ def test_other_settings_show_too(body, name, value):
     assert not stale()
 
 
+def test_another_sensitivity_leads_to_what_apply_shows(body):
+    """The look lies along the states that skin of these doses reaches."""
+    body.skin_tan.own_minimal_doses, body.skin_tan.med = True, 9.0
+    body.skin_tan.mmd = 15.0
+    live.show_changes()
+    live.make_exact()
+    shown = look(body)
+    apply(body)
+    assert look(body) == shown
+
+
 def test_no_tan_is_made_where_there_was_none(table_path):
     obj = tan_object(table_path)
     obj.skin_tan.exposures[0].dose = 3.0

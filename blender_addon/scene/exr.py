@@ -40,7 +40,8 @@ def rounded(values: NDArray) -> NDArray[np.float32]:
 def _upper_24_bits(values: NDArray) -> NDArray[np.uint32]:
     bits = np.ascontiguousarray(values, "<f4").view(np.uint32)
     magnitude = bits & 0x7FFFFFFF
-    return (bits & 0x80000000) >> 8 | (magnitude + (magnitude & 0x80)) >> 8
+    upper = (bits & 0x80000000) >> 8 | (magnitude + (magnitude & 0x80)) >> 8
+    return upper.astype(np.uint32, copy=False)
 
 
 def _packed(lines: NDArray[np.uint32]) -> bytes:

@@ -59,6 +59,9 @@ EVENLY = 12.0
 WEIGHTS = {"pale": 1.0, "tan": 10.0, "freckle": 2.0}
 """How closely knots lie below the untanned skin's melanin, within that of tans, and beyond."""
 
+RISE = 1.0 / 3.0
+"""Where the fourth knot of spread lies, as a share of the farthest state's distance."""
+
 SHORT = 1.0 / 3.0
 """Part of a step of the whole table's below which a scene's last step is none of its own."""
 
@@ -197,12 +200,16 @@ def _aside(sheet: Spread, states: np.ndarray) -> np.ndarray:
 
 
 def _spread_knots(spread: np.ndarray, count: int) -> np.ndarray:
-    """Knots on both sheets and, with three or more, at the farthest state on the side of one."""
+    """Knots on both sheets and, with three or more, at the farthest state on the side of one.
+
+    A fourth lies on that side too, near the sheet, where a tan's rise begins.
+    """
     if spread.max() - spread.min() < LEAST_SPAN or count == 1:
         return np.zeros(1)
     if count == 2 or spread.min() > -LEAST_SPAN:
         return np.linspace(0.0, 1.0, count)
-    return np.append(spread.min(), np.linspace(0.0, 1.0, count - 1))
+    aside = spread.min() * np.array([1.0, RISE][: count - 2])
+    return np.append(aside, np.linspace(0.0, 1.0, count - len(aside)))
 
 
 def _melanin_knots(skin: Skin, axes: LookAxes, highest: float, count: int) -> np.ndarray:

@@ -128,7 +128,11 @@ PRESETS = {
     ),
     "standard": Settings(knots=(16, 4, 3, 5), colour_wavelengths=10, profile_error=0.01),
     "reference": Settings(
-        knots=(20, 4, 3, 6), colour_wavelengths=12, profile_error=0.005, profile_states=80
+        knots=(28, 5, 4, 8),
+        colour_wavelengths=18,
+        profile_error=0.005,
+        profile_wavelengths=12,
+        profile_states=160,
     ),
 }
 """`lut-builder trade` measures them beside the front of time against error."""

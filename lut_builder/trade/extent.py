@@ -53,16 +53,16 @@ class Extent:
         (9, 2, 1, 4),
         (12, 3, 3, 4),
         (16, 4, 3, 5),
-        (20, 4, 3, 6),
+        (28, 5, 4, 8),
     )
-    wavelengths: tuple[int, ...] = (4, 8, 10, 12)
+    wavelengths: tuple[int, ...] = (4, 8, 10, 18)
     nodes: tuple[int, ...] = (14, 18, NODES)
     profile_errors: tuple[float, ...] = (0.05, 0.01, 0.005)
-    profile_wavelengths: tuple[int, ...] = (4, 8)
-    design_states: tuple[int, ...] = (12, 40, 80)
+    profile_wavelengths: tuple[int, ...] = (8, 12)
+    design_states: tuple[int, ...] = (12, 40, 160)
     rays: tuple[int, ...] = (1_000, 10_000, 100_000)
     fine_nodes: int = 30
-    fine_profile_wavelengths: int = 12
+    fine_profile_wavelengths: int = 16
     fine_profile_error: float = 0.006
     longest: float = 6.0
     file_knots: tuple[int, ...] = (16, 4, 3, 5)

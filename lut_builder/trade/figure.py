@@ -148,7 +148,7 @@ def _draw_profiles(place: Axes, parts: list[Row]) -> None:
             tables.append(knots)
         number = tables.index(knots)
         look = {"color": f"C{number % 10}", "lw": 0.9}
-        style = ":" if wavelengths == "4 wavelengths" else "-"
+        style = ":" if wavelengths == "8 wavelengths" else "-"
         walked = [row for row in rows if not row["note"]]
         place.plot(_numbers(rows, "seconds"), _numbers(rows, "mean"), style, **look)
         place.plot(
@@ -164,7 +164,7 @@ def _draw_profiles(place: Axes, parts: list[Row]) -> None:
         yscale="log",
         xlabel="seconds of one core for the profile",
         ylabel="rms error of the light beyond an edge",
-        title="Profiles by states and error aimed at (dotted: 4 wavelengths;\nwithout mark: "
+        title="Profiles by states and error aimed at (dotted: 8 wavelengths;\nwithout mark: "
         "extrapolated)",
     )
 

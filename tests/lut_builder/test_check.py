@@ -32,6 +32,17 @@ def test_the_standard_cannot_be_told_from_the_model(name):
     assert np.sqrt(np.mean(checked.bands**2)) < 0.003
 
 
+@pytest.mark.slow
+def test_the_reference_is_three_times_as_near_as_the_standard():
+    off = {}
+    for name in ("standard", "reference"):
+        settings = replace(PRESETS[name], profile_error=0.0)
+        off[name] = check(build(phototype("III").skin, settings), count=100, seed=9)
+    for part in ("differences", "slanting"):
+        near, usual = (getattr(off[name], part) for name in ("reference", "standard"))
+        assert near.mean() < usual.mean() / 3.0 and near.max() < usual.max() / 3.0
+
+
 def test_check_finds_a_table_right_and_a_wrong_one_wrong(small):
     honest = check(small, count=6, seed=5)
     assert honest.differences.shape == (6,)

@@ -93,6 +93,15 @@ def test_a_table_says_which_kinetics_it_tells():
         assert SkinTable(axes, {}, {}).kinetics == told
 
 
+def test_spread_has_knots_where_tans_rise_before_it_has_any_between_the_sheets():
+    knots = [choose_axes(phototype("VI").skin, (3, 2, count)).knots[2] for count in (2, 3, 4, 5)]
+    least = knots[1][0]
+    assert least < -0.1
+    expected = [0, 1], [least, 0, 1], [least, least / 3, 0, 1], [least, least / 3, 0, 0.5, 1]
+    for own, told in zip(knots, expected, strict=True):
+        assert own == pytest.approx(told, abs=1e-12)
+
+
 def test_skin_that_makes_no_melanin_has_one_spread():
     axes = choose_axes(phototype("I").skin, (7, 3, 3, 4))
     assert axes.shape == (7, 3, 1, 4)

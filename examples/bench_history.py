@@ -6,6 +6,7 @@ Errors are CIEDE2000 of the colour that is looked up, against simulating every p
 import argparse
 import time
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +50,12 @@ def main() -> None:
 
 
 def _report_history(random, skin: Skin, received: Doses, days: int, name: str, precision) -> None:
-    span = {"first_day": 0.0, "last_day": float(days), "mmd": skin.mmd, "med": skin.med}
+    span: dict[str, Any] = {
+        "first_day": 0.0,
+        "last_day": float(days),
+        "mmd": skin.mmd,
+        "med": skin.med,
+    }
 
     def work():
         return history.history(received, skin.dynamics, precision=precision, **span)[0]
@@ -68,7 +74,12 @@ def _report_history(random, skin: Skin, received: Doses, days: int, name: str, p
 def _report_basis(
     random, skin: Skin, received: Sequence[Doses], shares: NDArray, name: str, precision
 ) -> None:
-    span = {"first_day": 0.0, "last_day": float(DAYS), "mmd": skin.mmd, "med": skin.med}
+    span: dict[str, Any] = {
+        "first_day": 0.0,
+        "last_day": float(DAYS),
+        "mmd": skin.mmd,
+        "med": skin.med,
+    }
 
     def work():
         made = basis.basis(received, skin.dynamics, precision=precision, **span)[0]

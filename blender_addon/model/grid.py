@@ -139,4 +139,4 @@ def coefficients_at(
     for k in range(1, weights.shape[1]):
         point = first + (along >= ordered[:, k : k + 1]) @ strides
         total += weights[:, k : k + 1] * table[point]
-    return total
+    return np.asarray(total, float)

@@ -129,7 +129,7 @@ def _points(
         along.append(told[1])
     ordered = _descending(made, along)
     last = made.math("ADD", "Last point", first, float(sum(grid.strides)))
-    size = grid.images[0].size
+    size = tuple(grid.images[0].size)
     start = made.math("MULTIPLY_ADD", "Row of the part", part, 1.0 / parts, 0.5 / size[1])
     points = []
     for k, (before, after) in enumerate(zip([1.0, *ordered], [*ordered, 0.0], strict=True)):

@@ -224,7 +224,7 @@ def _knots(
         [
             np.zeros((1, masks)),
             np.ones((1, masks)),
-            random.integers(0, 2, (precision.others, masks)),
+            random.integers(0, 2, (precision.others, masks)).astype(float),
         ]
     )
     lines = []

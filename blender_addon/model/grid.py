@@ -131,12 +131,14 @@ def coefficients_at(
     column = np.floor(shares * STEPS + 0.5).astype(int)
     told = places[np.arange(shares.shape[1]), column].astype(float)
     table = np.concatenate(images, axis=-1).reshape(-1, len(images) * CHANNELS)
-    first = part * (len(table) // parts) + told[..., 0].astype(int) @ strides
+    apart = np.asarray(strides, int)
+    start = part * (len(table) // parts)
+    first = np.asarray(start + told[..., 0].astype(int) @ apart, int)
     along = told[..., 1]
     ordered = np.pad(-np.sort(-along, axis=1), ((0, 0), (1, 1)), constant_values=(1.0, 0.0))
     weights = -np.diff(ordered, axis=1)
     total = weights[:, :1] * table[first]
     for k in range(1, weights.shape[1]):
-        point = first + (along >= ordered[:, k : k + 1]) @ strides
+        point = np.asarray(first + (along >= ordered[:, k : k + 1]) @ apart, int)
         total += weights[:, k : k + 1] * table[point]
     return np.asarray(total, float)

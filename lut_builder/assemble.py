@@ -12,6 +12,7 @@ from hylios.skin.phototypes import PHOTOTYPES, phototype, specimens
 from hylios.skin.specimen import Specimen
 from hylios.spectra import estimates_within
 from hylios.table import SkinTable, described_dynamics
+from hylios.threads import one_thread
 from hylios.tissue import SPECTRA, Model
 from lut_builder.jobs.local import in_threads
 from lut_builder.jobs.run import run_units
@@ -55,11 +56,13 @@ def requested(
     InputError
         If the skin has a layer without melanin (`lut_builder.reachable.untanned_state`).
     """
-    whole = choose_axes(skin, settings.knots)
+    with one_thread():
+        whole = choose_axes(skin, settings.knots)
+        axes = whole if reached is None else within(whole, reached)
     return Request(
         skin,
         settings,
-        whole if reached is None else within(whole, reached),
+        axes,
         whole=int(np.prod(whole.shape)),
         seed=seed,
         model=model or Model(),

@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import nodes
+from . import first_version, nodes
 from .changes import Changes
 from .ownership import is_local
 from .plan import Link, Role, math_role
@@ -169,9 +169,23 @@ def set_size(trees: list[Any], obj: bpy.types.Object, scene_unit: float, changes
     size = millimetres(obj, scene_unit)
     for tree in trees:
         for node in tree.nodes:
+            if node.get(DETAIL_KEY) and node.node_tree is None:
+                _mend(tree, node, changes)
             if node.get(DETAIL_KEY) and node.inputs.get(SIZE) is not None:
                 changes.set(node.inputs[SIZE], "default_value", size)
                 changes.set(node.inputs["Millimetre"], "default_value", 0.001 / scene_unit)
+
+
+def _mend(tree: Any, node: Any, changes: Changes) -> None:
+    """Give a node its group and links again where the group was deleted by hand."""
+    changes.may_relink(tree)
+    changes.set(node, "node_tree", _shared_group())
+    for skin in tree.nodes:
+        shown = getattr(skin, "node_tree", None)
+        if shown is not None and first_version.is_tan_group(shown):
+            for name in OUTPUTS:
+                if not skin.inputs[name].is_linked:
+                    tree.links.new(node.outputs[name], skin.inputs[name])
 
 
 def millimetres(obj: bpy.types.Object, scene_unit: float) -> tuple[float, float, float]:

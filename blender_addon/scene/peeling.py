@@ -15,6 +15,7 @@ from . import nodes, peeling_nodes, several_nodes, stand_ins
 from .changes import Changes
 from .detail import millimetres
 from .mask_nodes import ShownMask
+from .plan import LINKS as TAN_LINKS
 from .plan import ROLE_KEY, Link, Role
 from .stand_ins import StandIn
 
@@ -87,6 +88,7 @@ def show(
     scene_unit : float
         Length of a scene unit in metres, on a body of life-size.
     """
+    _mend(group, changes)
     if image is None:
         if is_shown(group):
             changes.may_relink(group)
@@ -108,6 +110,24 @@ def show(
         tree = several_nodes.peeling_of_masks(name, image, masks, changes)
     _show_masks(group, tree, changes)
     set_size(group, obj, scene_unit, changes)
+
+
+def _mend(group: Any, changes: Changes) -> None:
+    """Give nodes their tree and links again where the tree was deleted by hand."""
+    dead = [node for node in nodes.of_role(group, "peel") if node.node_tree is None]
+    if not dead:
+        return
+    changes.may_relink(group)
+    for node in dead:
+        changes.set(node, "node_tree", peeling_nodes.shared_group())
+    inner = next((own for own in (OF_SEVERAL, STAND_INS["peel"]) if _is_in(group, own)), None)
+    given = [("peel", "State", *end) for source, _, *end in TAN_LINKS if source == "states"]
+    taken = [] if inner is None else [(inner.role, inner.output, "peel", inner.input)]
+    nodes.link(group, ("peel",), [*OF_MASKS_LINKS, *LINKS, *given, *taken])
+
+
+def _is_in(group: Any, plan: StandIn) -> bool:
+    return any(nodes.of_role(group, plan.role))
 
 
 def _show_masks(group: Any, tree: Any, changes: Changes) -> None:

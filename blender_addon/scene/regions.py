@@ -192,8 +192,9 @@ def _replaced(group: Any, tree: Any, changes: Changes) -> Any:
     changes.may_relink(group)
     is_early = False
     for node in nodes.of_role(group, "regions"):
-        is_early |= region_nodes.LIGHT not in node.outputs
+        is_early |= node.node_tree is not None and region_nodes.LIGHT not in node.outputs
         replaced.show_tree(group, node, tree, changes)
+    nodes.link(group, ("regions",), LINKS)  # those of one whose tree was deleted are gone
     if is_early:
         _add_later(group, changes)
     return next(nodes.of_role(group, "regions"))

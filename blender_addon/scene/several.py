@@ -18,9 +18,9 @@ from . import several_nodes
 from .changes import Changes
 from .images import remove_if_unused
 from .mask_nodes import ShownMask
-from .nodes import new_node, of_role
+from .nodes import link, new_node, of_role
 from .ownership import remembered
-from .plan import Role
+from .plan import LINKS, Link, Role
 from .replaced import remove_nodes, show_tree
 from .several_nodes import ATTRIBUTES_KEY, Basis, Grid
 from .vertex_groups import remove_attribute
@@ -70,7 +70,10 @@ def show(
         node = new_node(group, "basis", BASIS)
         node.node_tree = tree
     else:
+        was_deleted = node.node_tree is None
         show_tree(group, node, tree, changes)
+        if was_deleted:
+            link(group, ("basis",), _links("basis"))
     for output, (role, former_output) in REPLACED.items():
         _bridge(group, role, former_output, node, output)
     for row in of_role(group, "row"):
@@ -107,6 +110,8 @@ def take_out(obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes)
         for node in of_role(group, "basis"):
             for output, (role, own) in REPLACED.items():
                 _hand_back(group, node, output, role, own)
+            if node.node_tree is None:
+                link(group, [role for role, _ in REPLACED.values()], _links())
             changes.at_the_end(partial(remove_nodes, group, [node]))
     for key in IMAGE_KEYS.values():
         _forget(group, key, changes)
@@ -171,16 +176,27 @@ def _names(tree: bpy.types.NodeTree | None) -> list[str]:
         return []
 
 
+def _links(start: str = "") -> list[Link]:
+    """What `REPLACED` leads to in a group, from a node or as without it."""
+    led = [("states", "Color", "peel", "State"), *LINKS]
+    return [
+        (start or role, output if start else own, *end)
+        for output, (role, own) in REPLACED.items()
+        for source, given, *end in led
+        if (source, given) == (role, own)
+    ]
+
+
 def _bridge(group: Any, role: str, output: str, node: Any, own: str) -> None:
     """Link a node to all that nodes of a role are linked to."""
     for source in of_role(group, role):
-        for end in [link.to_socket for link in source.outputs[output].links]:
+        for end in [own.to_socket for own in source.outputs[output].links]:
             group.links.new(node.outputs[own], end)
 
 
 def _hand_back(group: Any, node: Any, output: str, role: str, own: str) -> None:
     """Link nodes of a role to all that a node is linked to."""
     given = node.outputs.get(output)  # earlier versions had no share
-    for end in [link.to_socket for link in given.links] if given else []:
+    for end in [own.to_socket for own in given.links] if given else []:
         for source in of_role(group, role):
             group.links.new(source.outputs[own], end)

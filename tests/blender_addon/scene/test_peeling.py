@@ -113,6 +113,34 @@ def test_every_mask_peels_by_its_own_doses(tmp_path, table_path):
     assert of_role(obj, "peel").inputs["Peeling"].links[0].from_node == of_role(obj, "peel_image")
 
 
+def links_of(obj) -> list[tuple[str, ...]]:
+    return sorted(
+        (link.from_node.label, link.from_socket.name, link.to_node.label, link.to_socket.name)
+        for tree in (obj.material_slots[0].material.node_tree, tan_group(obj))
+        for link in tree.links
+    )
+
+
+def test_groups_that_were_deleted_by_hand_come_back(table_path):
+    """All at once, and while the mesh turns back to one mask that does not peel."""
+    obj = burnt_row(table_path)
+    add_region(obj, "freckles", np.ones(len(SHARES)))
+    more = obj.skin_tan.exposures.add()
+    more.dose, obj.skin_tan.peeling, obj.skin_tan.last_day = 4.0 * MED, False, 9.0
+    apply(obj)
+    plain = links_of(obj)
+    obj.skin_tan.peeling = more.own_mask = True
+    apply(obj)
+    whole = links_of(obj)
+    inner = {group.name for group in bpy.data.node_groups} - {tan_group(obj).name}
+    assert len(inner) == 5
+    for is_on, expected in ((True, whole), (False, plain)):
+        bpy.data.batch_remove([bpy.data.node_groups[name] for name in inner])
+        obj.skin_tan.peeling = more.own_mask = is_on
+        apply(obj)
+        assert links_of(obj) == expected
+
+
 def test_several_masks_views_and_removal_with_it(table_path):
     """In any order, and Remove Tan leaves no group and no image."""
     obj = burnt_row(table_path)

@@ -39,6 +39,7 @@ from .scene.changes import Changes
 from .scene.ownership import is_local, names
 from .scene.plan import LOOK
 from .scene.region_nodes import Region, Spots
+from .scene.sampled import Sampled
 from .scene.several import made_images as made_of_masks
 from .scene.trees import tan_groups, tree_of
 from .views import keep_view, remember_source
@@ -194,18 +195,18 @@ def tannable(obj: bpy.types.Object | None) -> bpy.types.Object:
 
 def _sampled(
     tan: Tan, obj: bpy.types.Object, unit: float, peel_image: bpy.types.Image | None
-) -> nodes.Sampled:
+) -> Sampled:
     history, look = tan.history, tan.look
-    return nodes.Sampled(
+    return Sampled(
         states=images.packed_image(
             f"Skin Tan States {obj.name}", history.coordinates, is_colour=False
         ),
-        places=images.packed_image(f"Skin Tan Places {obj.name}", history.places, is_colour=False),
+        places=images.packed_image(f"Skin Tan Places {obj.name}", history.lines, is_colour=False),
         look={
-            role: images.shared_image(f"Skin Tan Look {name}", values, is_colour=role == "colour")
-            for (role, name), values in zip(
-                LOOK.items(), (look.colour, look.bend, look.bow, look.near, look.far), strict=True
+            role: images.shared_image(
+                f"Skin Tan Look {name}", getattr(look, role), is_colour=name == "Colours"
             )
+            for role, name in LOOK.items()
         },
         melanin=look.melanin,
         blood=look.blood,
@@ -213,7 +214,6 @@ def _sampled(
         bulge=look.bulge,
         level=look.level,
         near_weight=look.near_weight,
-        through=look.through,
         roughness=look.roughness,
         has_profile=look.has_profile,
         first_day=history.first_day,
@@ -224,7 +224,7 @@ def _sampled(
 
 
 def _note(
-    obj: bpy.types.Object, sampled: nodes.Sampled, text: str, changes: Changes, *, rough: bool
+    obj: bpy.types.Object, sampled: Sampled, text: str, changes: Changes, *, rough: bool
 ) -> None:
     """Note in images, and where they are exact on the object, of which settings they are."""
     images.note_content(sampled.of_history(), applied.digest(text))
@@ -234,9 +234,7 @@ def _note(
         applied.note(obj, text, changes)
 
 
-def _show_film(
-    obj: bpy.types.Object, skin: skins.Skin, sampled: nodes.Sampled, changes: Changes
-) -> None:
+def _show_film(obj: bpy.types.Object, skin: skins.Skin, sampled: Sampled, changes: Changes) -> None:
     """Have an object's tan show what lies on its skin."""
     settings = settings_of(obj)
     worn = None

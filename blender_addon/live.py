@@ -29,9 +29,6 @@ from .scene import images, nodes, several
 from .scene.ownership import Users
 from .several import has_several, is_at_hand
 
-LOOK_VALUES = {"colour": "colour", "bend": "bend", "bow": "bow", "near": "near", "width": "far"}
-"""Names of a look's values by the role of the image that shows them."""
-
 REST_SECONDS = 0.3
 """After so long without a change, a tan is made exact."""
 
@@ -176,7 +173,7 @@ def show_schedule(obj: bpy.types.Object, text: str, precision: Precision) -> Non
     settings = settings_of(obj)
     values = settings.values()
     history, peeling = history_of(values, precision), peeling_of(values)
-    told = [history.coordinates, history.places, *([] if peeling is None else [peeling])]
+    told = [history.coordinates, history.lines, *([] if peeling is None else [peeling])]
     for image, values in zip(_history(obj), told, strict=True):
         images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
     if precision is FULL:
@@ -190,7 +187,7 @@ def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
     look = look_of(settings.values(), rough=rough)
     content = applied.look_digest(text)
     for role, image in (nodes.own_look(settings.group) or {}).items():
-        values = offsets(look) if role == "own_image" else getattr(look, LOOK_VALUES[role])
+        values = offsets(look) if role == "own_image" else getattr(look, role)
         images.swap_pixels(image, values, content, pack=True)
 
 

@@ -18,7 +18,7 @@ from .model.settings import Biology, TanSettings
 from .model.tan import Tan
 from .model.views import VIEWS, VISIBLE, BandLook, band_look, left_by_film
 from .props import SkinTanSettings, table_file
-from .scene import images, views
+from .scene import images, nodes, views
 from .scene.changes import Changes
 from .scene.film import FILM_KEY
 from .scene.ownership import is_local, names
@@ -116,7 +116,7 @@ def _bands(view: str) -> Bands:
 
     def band(group: Any) -> views.Band:
         source = group.get(SOURCE_KEY)
-        if source is None:
+        if source is None or not nodes.is_of_today(group):
             raise InputError("an earlier version made this tan; press Apply Tan.")
         if source not in looks:
             looks[source] = _look(json.loads(source), view)

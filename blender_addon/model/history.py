@@ -117,6 +117,12 @@ class History:
     first_day: float
     last_day: float
 
+    @property
+    def lines(self) -> NDArray[np.float32]:
+        """`places` as (2, STEPS + 1, 3): the red alone below, the green above, so that a sum of
+        both rows is a place in `coordinates`."""
+        return np.concatenate([self.places * (1, 0, 0), self.places * (0, 1, 0)]).astype(np.float32)
+
 
 def history(
     received: Doses,

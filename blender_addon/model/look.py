@@ -87,6 +87,23 @@ class Look:
     roughness: float
     has_profile: bool
 
+    @property
+    def colours(self) -> NDArray[np.float32]:
+        """`colour` as a shader samples it: the upper half tells by how much thick skin differs."""
+        thin, thick = np.split(self.colour, 2)
+        return np.concatenate([thin, thick - thin[::-1]])
+
+    @property
+    def light(self) -> NDArray[np.float32]:
+        """What of light has no colour, in one image: `bend`, `bow`, `near` and `far` above each
+        other, and a row of the light that the gloss lets through at 0 to 90 degrees, over x, 1 less
+        the cosine."""
+        x = np.linspace(0.0, 1.0, self.bend.shape[1])
+        through = np.array(self.through) @ x ** np.array([[0], [2], [3], [4]])
+        row = np.broadcast_to(through[:, None], (1, len(x), 3))
+        blocks = self.bend, self.bow, self.near, self.far, row
+        return np.concatenate(blocks, axis=0).astype(np.float32)
+
 
 def look(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> Look:
     """Images of a table along the states of its kinetics.

@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Any
 
 import bpy
-from mathutils import Color
+from mathutils import Color, Vector
 
 MADE = ("images", "materials", "node_groups", "actions")
 """Collections of `bpy.data` into which Apply puts new data-blocks."""
@@ -61,7 +61,7 @@ class Changes:
     def set(self, owner: Any, name: str, value: Any) -> None:
         """Set an attribute."""
         former: Any = getattr(owner, name)
-        if isinstance(former, bpy.types.bpy_prop_array | Color):
+        if isinstance(former, bpy.types.bpy_prop_array | Color | Vector):
             former = tuple(former[:])  # it would follow the change
         self.on_failure(setattr, owner, name, former)
         setattr(owner, name, value)

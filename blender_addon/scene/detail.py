@@ -62,9 +62,9 @@ def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) ->
     return math_role("MULTIPLY_ADD", label, location, at_1=slope, at_2=ends[0] - 1.0 - 0.25 * slope)
 
 
-def _beyond(label: str, location: tuple[int, int], edge: float, slope: float) -> Role:
-    """Height beyond an edge; a Map Range would add three times as much to a file."""
-    return math_role("MULTIPLY_ADD", label, location, at_1=slope, at_2=-slope * edge)
+# The height in mm is less by so much for each unit of noise beyond the edge of a line or a pore.
+LINE_SLOPE, PORE_SLOPE = LINE_MILLIMETRES / LINE, PORE_MILLIMETRES / (PORE[1] - PORE[0])
+LINE_EDGE = 0.5 - LINE
 
 
 ROLES = {
@@ -85,14 +85,18 @@ ROLES = {
     "lines": math_role("PINGPONG", "Highest at lines", (-400, 600), at_1=0.5),
     "other_lines": math_role("PINGPONG", "Highest at other lines", (-400, 400), at_1=0.5),
     "all_lines": math_role("SMOOTH_MAX", "Lines that cross", (-200, 500), at_2=0.04),
-    "line": _beyond("Height in a line in mm", (0, 500), 0.5 - LINE, LINE_MILLIMETRES / LINE),
-    "in_line": math_role("SMOOTH_MAX", "Depth of lines in mm", (150, 500), at_1=0.0, at_2=0.01),
-    "pore": _beyond(
-        "Height in a pore in mm", (0, 250), PORE[0], PORE_MILLIMETRES / (PORE[1] - PORE[0])
+    "in_line": math_role(
+        "SMOOTH_MAX", "Beyond a line's edge", (0, 500), at_1=LINE_EDGE, at_2=0.01 / LINE_SLOPE
     ),
-    "in_pore": math_role("MAXIMUM", "Depth of pores in mm", (150, 250), at_1=0.0),
-    "depth": math_role("ADD", "Depth in mm", (300, 400)),
-    "height": math_role("MULTIPLY", "Height in mm", (400, 250), at_1=-1.0),
+    "in_pore": math_role("MAXIMUM", "Beyond a pore's edge", (0, 250), at_1=PORE[0]),
+    "pores": math_role(
+        "MULTIPLY_ADD",
+        "Height by pores in mm",
+        (150, 250),
+        at_1=-PORE_SLOPE,
+        at_2=PORE_SLOPE * PORE[0] + LINE_SLOPE * LINE_EDGE,
+    ),
+    "height": math_role("MULTIPLY_ADD", "Height in mm", (150, 500), at_1=-LINE_SLOPE),
     "deep": math_role("MULTIPLY", "Relief", (300, 250)),
     "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
     "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
@@ -120,13 +124,11 @@ LINKS: tuple[Link, ...] = (
     ("bent", "Value", "other_lines", 0),
     ("lines", "Value", "all_lines", 0),
     ("other_lines", "Value", "all_lines", 1),
-    ("all_lines", "Value", "line", 0),
-    ("line", "Value", "in_line", 0),
-    ("texture", "Fac", "pore", 0),
-    ("pore", "Value", "in_pore", 0),
-    ("in_line", "Value", "depth", 0),
-    ("in_pore", "Value", "depth", 1),
-    ("depth", "Value", "height", 0),
+    ("all_lines", "Value", "in_line", 0),
+    ("texture", "Fac", "in_pore", 0),
+    ("in_pore", "Value", "pores", 0),
+    ("in_line", "Value", "height", 0),
+    ("pores", "Value", "height", 2),
     ("height", "Value", "deep", 0),
     ("input", "Relief", "deep", 1),
     ("deep", "Value", "bump", "Height"),

@@ -14,7 +14,7 @@ from . import mask_nodes, nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
 from .masks import Mask
-from .plan import INDEX, ROLE_KEY, Link, Role, math_role, vector_role
+from .plan import INDEX, Link, Role, math_role, vector_role
 
 FILM = "Film"
 INPUTS = {FILM: (1.0, 1.0, "How much of the skin the object's film covers; link a mask of it here")}
@@ -29,6 +29,7 @@ ROLES = {
     "film_lobes": math_role("MULTIPLY", "Oil without a film over it", (1100, 900)),
     "film_more": math_role("MULTIPLY_ADD", "More than without a film", (1400, 950), at_2=1.0),
     "film_through": math_role("MULTIPLY", "What a film lets through", (1620, 950)),
+    "film_given": vector_role("NORMALIZE", "Normal of the skin", (2050, -700)),
     "film_relief": Role("ShaderNodeMix", "Relief of a film", (2200, -600), {"data_type": "VECTOR"}),
     "film_normal": vector_role("NORMALIZE", "Normal of a film", (2350, -600)),
 }
@@ -37,7 +38,7 @@ SHADERS = ("skin", "near_skin")
 
 LINKS: tuple[Link, ...] = (
     ("input", FILM, "film", 0),
-    ("mixed_colour", "Result_Color", "film_colour", 0),
+    ("mixed_colour", "Vector", "film_colour", 0),
     ("film_colour", "Vector", "film_level", 0),
     ("film", "Value", "film_level", 1),
     ("film_level", "Vector", "gain", 2),
@@ -49,11 +50,12 @@ LINKS: tuple[Link, ...] = (
     ("film_part", "Value", "film_lobes", 1),
     ("film_lobes", "Value", "two_lobes", 0),
     ("film", "Value", "film_more", 0),
-    ("through", "Value", "film_through", 0),
+    ("let_through", "Color", "film_through", 0),
     ("film_more", "Value", "film_through", 1),
     ("film_through", "Value", "beneath", 0),
     ("geometry", "Normal", "film_relief", "A_Vector"),
-    ("normal", "Vector", "film_relief", "B_Vector"),
+    ("normal", "Vector", "film_given", 0),
+    ("film_given", "Vector", "film_relief", "B_Vector"),
     ("film_relief", "Result_Vector", "film_normal", 0),
     *(("index", "Value", role, "IOR") for role in SHADERS),
     *(("film", "Value", role, "Coat Weight") for role in SHADERS),
@@ -63,7 +65,7 @@ LINKS: tuple[Link, ...] = (
 FILM_KEY = "skin_tan_film"
 """Custom property of a group: the name of the liquid that it shows."""
 
-REPLACED = {"two_lobes": "input", "beneath": "through"}
+REPLACED = {"two_lobes": "input", "beneath": "let_through"}
 """Roles whose first input a film takes over, and what is linked there without one."""
 
 UNTOUCHED = {"IOR": INDEX, "Coat Weight": 0.0}
@@ -185,7 +187,7 @@ def _add(group: Any, trees: Collection[Any], changes: Changes) -> None:
     for role, source in REPLACED.items():
         for node in nodes.of_role(group, role):
             for former in node.inputs[0].links:
-                if former.from_node.get(ROLE_KEY) == source:
+                if nodes.role_of(former.from_node) == source:
                     group.links.remove(former)
     nodes.complete(group, ROLES, ROLES, [link for link in LINKS if _is_free(group, link)])
 
@@ -206,7 +208,7 @@ def _coated(group: Any) -> list[Any]:
         for role in SHADERS
         for node in nodes.of_role(group, role)
         for link in nodes.find_input(node, "Coat Weight").links
-        if link.from_node.get(ROLE_KEY) == "film"
+        if nodes.role_of(link.from_node) == "film"
     ]
 
 
@@ -221,7 +223,8 @@ def _values(film: Film | None, level: float) -> dict[str, dict[str | int, Any]]:
         "film_level": {2: (level,) * 3},
     }
     if film is None:
-        values[PREFIX + "share"] = {1: 0.0}
+        for role in ("share", "mask_share"):
+            values[PREFIX + role] = {1: 0.0, 2: 0.0}
         return values
     beneath = INDEX / film.index
     values["film_colour"] = {

@@ -12,10 +12,17 @@ import bpy
 
 from .changes import Changes
 from .images import MARK, stem
-from .nodes import complete, find_input, of_role
+from .nodes import complete, find_input, of_role, role_of
 from .plan import DAY_PROPERTY, LAYOUT_KEY, PROFILE_KEY, ROLE_KEY, ROLES
 
 NEEDED = ("day", "row", "column", "place", "colour")
+FORMER_ROLES = {
+    "column": ("ShaderNodeMapRange", "Share to column"),
+    "row": ("ShaderNodeMapRange", "Day to row"),
+    "place": ("ShaderNodeCombineXYZ", "Place in table"),
+}
+"""Kinds and labels of nodes of roles that there are none of today."""
+
 IMAGE_NAMES = {"colour": "Skin Tan Colour ", "width": "Skin Tan Width "}
 """How the names of its images begin."""
 
@@ -78,7 +85,7 @@ def _put_share_in(group: Any, recognised: dict[str, list[Any]], changes: Changes
     for link in links:
         group.links.remove(link)
     complete(group, ("share",) if masks else ("mask", "share"))
-    share = next(node for node in group.nodes if node.get(ROLE_KEY) == "share")
+    share = next(node for node in group.nodes if role_of(node) == "share")
     for end in ends:
         group.links.new(share.outputs["Value"], end)
     for node in numbers:
@@ -92,7 +99,7 @@ def _recognised(group: Any) -> dict[str, list[Any]]:
     nodes_by_role: dict[str, list[Any]] = {}
 
     def look_for(role: str, is_linked_so: Callable[[Any], bool]) -> None:
-        labelled = _labelled(group, _kind(role), ROLES[role].label)
+        labelled = _labelled(group, _kind(role), _label(role))
         nodes = labelled or [node for node in _of_kind(group, role) if is_linked_so(node)]
         if nodes:
             nodes_by_role[role] = nodes
@@ -117,7 +124,11 @@ def _recognised(group: Any) -> dict[str, list[Any]]:
 
 
 def _kind(role: str) -> str:
-    return "ShaderNodeMapRange" if role in ("row", "column") else ROLES[role].kind
+    return FORMER_ROLES[role][0] if role in FORMER_ROLES else ROLES[role].kind
+
+
+def _label(role: str) -> str:
+    return FORMER_ROLES[role][1] if role in FORMER_ROLES else ROLES[role].label
 
 
 def _of_kind(group: Any, role: str) -> list[Any]:

@@ -224,8 +224,8 @@ def replace(
             kept.append(image)
         elif users.others(image, obj):
             continue
-        elif CONTENT in new and CONTENT not in image:
-            # Of an earlier plan: the new one shows the same over other coordinates.
+        elif CONTENT in new and (CONTENT not in image or not _is_called_alike(image, new)):
+            # Of an earlier plan: the new one shows more, or the same over other coordinates.
             changes.at_the_end(partial(remove_if_unused, image))
         elif CONTENT in new:
             changes.at_the_end(partial(image.user_remap, new))
@@ -251,6 +251,10 @@ def remove_if_unused(image: bpy.types.Image) -> None:
     """Remove an image if nothing shows it."""
     if image.users == 0:
         bpy.data.images.remove(image)
+
+
+def _is_called_alike(image: bpy.types.Image, other: bpy.types.Image) -> bool:
+    return stem(str(image.get(MARK))) == stem(str(other.get(MARK)))
 
 
 def _has_its_name(image: bpy.types.Image) -> bool:

@@ -8,34 +8,41 @@ what was linked to them is linked to what stands for them.
 from collections.abc import Collection
 from typing import Any
 
+from . import layout_2
 from .changes import Changes
-from .nodes import INPUTS, add_sockets, complete, find_input, find_output, link, new_node, of_role
-from .plan import INDEX, LAYOUT, LAYOUT_KEY, ROLE_KEY, ROLES, SHADERS
+from .nodes import (
+    INPUTS,
+    add_sockets,
+    find_input,
+    find_output,
+    link,
+    new_node,
+    of_role,
+    role_of,
+)
+from .plan import INDEX, LAYOUT, LAYOUT_KEY, ROLES, SHADERS
 
 FORMER_ROLES = frozenset(
     "mask share day column row place colour width radius input skin output".split()
 )
-FORMER_INDEX = 1.4
+FORMER_LAYOUT, FORMER_INDEX = 1, 1.4
 FORMER_OUTPUT, OUTPUT = "Profile Width", "Far Width"
 
 MOVED = {
-    "column": (0, "column_place", "X"),
-    "row": (0, "row_place", "Y"),
-    "colour": ("Color", "mixed_colour", "Result_Color"),
+    "colour": ("Color", "mixed_colour", "Vector"),
     "skin": ("BSDF", "light", "Shader"),
 }
 """Outputs of former nodes, and what gives the same today."""
 
 
 def take_over(group: Any, trees: Collection[Any], changes: Changes) -> None:
-    """Bring a group of the plan before up to today's.
+    """Bring a group of this plan, or of the next (`layout_2`), up to today's.
 
     What an artist linked stays linked, and what he removed stays away. Nodes that show the group
     are in the trees.
     """
-    if group.get(LAYOUT_KEY) == LAYOUT:
-        _complete_thickness(group, changes)
-    if group.get(LAYOUT_KEY) != LAYOUT - 1:
+    layout_2.take_over(group, changes)
+    if group.get(LAYOUT_KEY) != FORMER_LAYOUT:
         return
     changes.may_change_sockets(group)
     changes.may_add_to(group.nodes)
@@ -61,21 +68,20 @@ def take_over(group: Any, trees: Collection[Any], changes: Changes) -> None:
     _move_links(group)
     if has_skin:
         _share_with_near_skin(group, changes)
+    for role, image in (("column", "columns"), ("row", "rows"), ("place", "")):
+        for node in list(of_role(group, role)):
+            sources = [former.from_socket for former in node.inputs[0].links]
+            for end in (node.inputs["Vector"] for node in of_role(group, image)):
+                for source in sources:
+                    group.links.new(source, end)
+            layout_2.bypass(group, node, [], changes)
     link(group, made)
     for share in of_role(group, "share"):
+        changes.set(share, "operation", ROLES["share"].values["operation"])
+        changes.set(share, "label", ROLES["share"].label)
         for output in of_role(group, "output"):
             group.links.new(share.outputs[0], output.inputs["Share"])
     changes.set_key(group, LAYOUT_KEY, LAYOUT)
-
-
-def _complete_thickness(group: Any, changes: Changes) -> None:
-    """Give a group the node by which thick skin's share may bulge, which today's plan had not."""
-    role = "thickness_slope"
-    ends = [node for node in of_role(group, "thickness") if node.bl_idname == "ShaderNodeMath"]
-    if ends and not ends[0].inputs[1].is_linked and not any(of_role(group, role)):
-        changes.may_add_to(group.nodes)
-        changes.may_relink(group)
-        complete(group, [role])
 
 
 def _move_links(group: Any) -> None:
@@ -85,7 +91,7 @@ def _move_links(group: Any) -> None:
             former.to_socket
             for node in of_role(group, role)
             for former in find_output(node, output).links
-            if former.to_node.get(ROLE_KEY) != successor
+            if role_of(former.to_node) != successor
         ]
         for end in ends:
             if role == "colour" and _is_base(end):
@@ -105,7 +111,7 @@ def _move_links(group: Any) -> None:
                 group.links.remove(former)
     for share in of_role(group, "share"):
         for former in list(find_input(share, 0).links):
-            if former.from_node.get(ROLE_KEY) == "mask":  # an artist's own node in between stays
+            if role_of(former.from_node) == "mask":  # an artist's own node in between stays
                 group.links.remove(former)
 
 
@@ -114,7 +120,7 @@ def _outputs(group: Any, role: str, output: str) -> list[Any]:
 
 
 def _is_base(end: Any) -> bool:
-    return end.node.get(ROLE_KEY) == "skin" and end.identifier == "Base Color"
+    return role_of(end.node) == "skin" and end.identifier == "Base Color"
 
 
 def _share_with_near_skin(group: Any, changes: Changes) -> None:
@@ -133,7 +139,7 @@ def _share_with_near_skin(group: Any, changes: Changes) -> None:
             continue
         if end.is_linked:
             start = end.links[0].from_socket
-            if start.node.get(ROLE_KEY) != "input":  # the plan links those
+            if role_of(start.node) != "input":  # the plan links those
                 group.links.new(start, other)
                 _show_both(group)
         elif hasattr(end, "default_value"):

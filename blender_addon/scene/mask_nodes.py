@@ -12,7 +12,18 @@ from .changes import Changes
 from .masks import COLOURS, Mask, require_usable
 from .nodes import complete, find_input, of_role
 from .ownership import Users, is_local, remembered
-from .plan import IMAGE_LINKS, IMAGE_ROLES, LAYOUT, LAYOUT_KEY, LINKS, ROLES, Link, Role
+from .plan import (
+    CHANNEL_LINKS,
+    CHANNEL_ROLES,
+    IMAGE_LINKS,
+    IMAGE_ROLES,
+    LAYOUT,
+    LAYOUT_KEY,
+    LINKS,
+    ROLES,
+    Link,
+    Role,
+)
 from .vertex_groups import copied
 
 WEIGHTS = {
@@ -24,7 +35,7 @@ WEIGHTS = {
 }
 """Of red, green and blue in the number that a channel gives."""
 
-SHARE_ROLES = ("mask", "mask_channel", "mask_alpha", "mask_value", "mask_share", "share")
+SHARE_ROLES = ("mask", "mask_value", "share")
 """Roles of the nodes that read a mask which is no image."""
 
 NUMBER, NOTHING = (1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
@@ -45,6 +56,8 @@ class ShownMask:
         Weight of alpha.
     slope, offset : float
         From the number to the share of the dose.
+    by_channel : bool
+        Whether the number is not the mean of an attribute's red, green and blue.
     """
 
     attribute: str = ""
@@ -54,17 +67,20 @@ class ShownMask:
     alpha: float = 0.0
     slope: float = 1.0
     offset: float = 0.0
+    by_channel: bool = False
 
     def values(self) -> Mapping[str, Mapping[int, Any]]:
         """By roles and numbers of inputs."""
         of_image, bare = self.image is not None, self.image is None and not self.attribute
+        line = {1: 0.0, 2: 1.0} if bare else {1: self.slope, 2: self.offset}
         return {
             "mask_channel": {1: NOTHING if of_image else self.weights},
             "mask_alpha": {1: 0.0 if of_image else self.alpha},
             "image_channel": {1: self.weights if of_image else NOTHING},
             "image_alpha": {1: self.alpha if of_image else 0.0},
-            "mask_share": {1: self.slope, 2: self.offset},
-            "share": {1: 1.0 if bare else 0.0},
+            "share": line,
+            # Groups of earlier versions have both: their share is at least what its input 1 says.
+            "mask_share": line,
         }
 
 
@@ -89,12 +105,13 @@ def shown_mask(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask
     alpha = 1.0 if mask.channel == "ALPHA" else 0.0
     if source.kind == "IMAGE":
         return ShownMask("", mask.image, mask.uv_map, weights, alpha, slope, offset)
+    by_channel = mask.channel in WEIGHTS and mask.channel != "MEAN"
     if source.data_type not in COLOURS:
-        weights, alpha = NUMBER, 0.0
+        weights, alpha, by_channel = NUMBER, 0.0, False
     name = source.name
     if source.kind == "GROUP":
         name = copied(obj, name, changes)
-    return ShownMask(name, None, "", weights, alpha, slope, offset)
+    return ShownMask(name, None, "", weights, alpha, slope, offset, by_channel)
 
 
 def where_it_lies(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownMask:
@@ -111,15 +128,15 @@ def where_it_lies(obj: bpy.types.Object, mask: Mask, changes: Changes) -> ShownM
 
 def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: str = "") -> None:
     """Have the nodes of a mask read something else; those of another mask by their prefix."""
-    if shown.image is not None and any(of_role(group, prefix + "mask_value")):
-        roles, links = prefixed(IMAGE_ROLES, IMAGE_LINKS, prefix)
-        made = [role for role in roles if not any(of_role(group, role))]
-        changes.may_add_to(group.nodes)
-        changes.may_relink(group)
-        complete(group, made, roles, links)
+    if any(of_role(group, prefix + "mask_value")):
+        if shown.by_channel or shown.image is not None:
+            _add_channel(group, changes, prefix)
+        if shown.image is not None:
+            _add_lacking(group, IMAGE_ROLES, IMAGE_LINKS, changes, prefix)
     for role, values in shown.values().items():
         for node in of_role(group, prefix + role):
-            for socket, value in values.items():
+            at_least = node.operation == "MAXIMUM"
+            for socket, value in ({1: 0.0} if at_least else values).items():
                 changes.set(find_input(node, socket), "default_value", value)
     for role, name, value in (
         ("mask", "attribute_name", shown.attribute),
@@ -128,6 +145,29 @@ def show(group: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: 
     ):
         for node in of_role(group, prefix + role):
             changes.set(node, name, value)
+
+
+def _add_channel(group: Any, changes: Changes, prefix: str) -> None:
+    """Have the channel of a mask's attribute lead to all that its number led to."""
+    masks = list(of_role(group, prefix + "mask"))
+    ends = [link.to_socket for node in masks for link in node.outputs["Fac"].links]
+    if _add_lacking(group, CHANNEL_ROLES, CHANNEL_LINKS, changes, prefix):
+        for alpha in of_role(group, prefix + "mask_alpha"):
+            for end in ends:
+                group.links.new(alpha.outputs[0], end)
+
+
+def _add_lacking(
+    group: Any, roles: Mapping[str, Role], links: Iterable[Link], changes: Changes, prefix: str
+) -> list[str]:
+    """Make those nodes of a mask that a group lacks; their roles."""
+    own_roles, own_links = prefixed(roles, links, prefix)
+    made = [role for role in own_roles if not any(of_role(group, role))]
+    if made:
+        changes.may_add_to(group.nodes)
+        changes.may_relink(group)
+        complete(group, made, own_roles, own_links)
+    return made
 
 
 def added(tree: bpy.types.NodeTree, shown: ShownMask, changes: Changes, prefix: str) -> Any:

@@ -74,7 +74,7 @@ def mask_values(
 def shares_of(mask: Mask, numbers: NDArray[np.float32]) -> NDArray[np.float32]:
     """The share of the dose where a mask reads some numbers."""
     slope, offset = slope_and_offset(mask)
-    cut = np.clip(np.where(np.isfinite(numbers), numbers, 0.0), 0.0, 1.0)
+    cut = np.clip(np.where(np.isnan(numbers), 0.0, numbers), 0.0, 1.0)
     return (slope * cut + offset).astype(np.float32)
 
 
@@ -101,7 +101,7 @@ def _said(mask: Mask, numbers: NDArray[np.float32], where_covered: str = "") -> 
     if not numbers.size:
         return []
     name = mask.image.name if mask.image else mask.source
-    said, is_number = [], np.isfinite(numbers)
+    said, is_number = [], ~np.isnan(numbers)
     if not is_number.all():
         said.append(
             f"{np.count_nonzero(~is_number)} of {numbers.size} points of the mask {name!r} have "

@@ -1,21 +1,34 @@
 """The node group of a tan: made by the plan, and told what to show.
 
-A node that this add-on makes has a role, which says what it is for, in a custom property. Apply
-writes the few values that it owns into nodes with a role. It leaves all other nodes, links and
-values alone.
+A node that this add-on makes has a role, which says what it is for, in its name. Apply writes the
+few values that it owns into nodes with a role. It leaves all other nodes, links and values alone.
 """
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import bpy
 
 from hylios.errors import InputError
 
+from . import places
 from .changes import Changes
-from .plan import LAYOUT, LAYOUT_KEY, LINKS, LOOK, PROFILE_KEY, ROLE_KEY, ROLES, Link, Role
+from .images import stem
+from .plan import (
+    LAYOUT,
+    LAYOUT_KEY,
+    LIGHT,
+    LINKS,
+    PROFILE_KEY,
+    ROLE_KEY,
+    ROLE_PREFIX,
+    ROLES,
+    Link,
+    Role,
+)
+from .sampled import FORMER_KEYS, IMAGE_KEYS, Sampled
 
 # Cycles' Burley profile has the width d = radius / (4 pi 1.04); in metres.
 RADIUS_PER_MILLIMETRE = 4.0 * math.pi * 1.04 * 0.001
@@ -38,94 +51,6 @@ OUTPUTS = {
     "Share": ("NodeSocketFloat", "Share of the sun that arrives here"),
 }
 """Outputs of the group: type and what they are."""
-
-IMAGE_KEYS = {
-    "states": "skin_tan_states",
-    "columns": "skin_tan_places",
-    **{role: f"skin_tan_{role}" for role in LOOK},
-    "own_image": "skin_tan_own_image",
-    "peel_image": "skin_tan_peel_image",
-}
-"""Custom properties of a group: the images that were made for it, whatever its nodes show."""
-
-
-@dataclass(frozen=True)
-class Sampled:
-    """The images of a tan, and what their axes mean.
-
-    Attributes
-    ----------
-    states : Image
-        Coordinates of the skin's states over days and shares.
-    places : Image
-        Where shares and days lie in it.
-    look : mapping
-        Images by the roles of `LOOK`.
-    melanin, blood, thickness : pairs of float
-        What the ends of the look's images stand for: square root of melanin, logarithms of blood
-        and of thickness.
-    bulge : float
-        How the share of thick skin follows the thickness: x being how far this lies from thin to
-        thick, it is x + bulge x (1 - x).
-    level : float
-        Base colour of a shader over the colour, seen at 8 degrees.
-    near_weight : float
-        Of the shader that shows near light.
-    through : 4 floats
-        Share of light that the gloss lets through, by powers 0, 2, 3 and 4 of 1 less the cosine of
-        the angle of view.
-    roughness : float
-        Of the skin.
-    has_profile : bool
-        Whether light scatters below the surface.
-    first_day, last_day : float
-    scene_unit : float
-        Length of a scene unit in metres, on a body of life-size.
-    own_image : Image or None
-        Melanin and blood of painted colours, where these say how skin tans.
-    peel_image : Image or None
-        What peels over days and shares, where skin peels.
-    """
-
-    states: bpy.types.Image
-    places: bpy.types.Image
-    look: Mapping[str, bpy.types.Image]
-    melanin: tuple[float, float]
-    blood: tuple[float, float]
-    thickness: tuple[float, float]
-    bulge: float
-    level: float
-    near_weight: float
-    through: tuple[float, float, float, float]
-    roughness: float
-    has_profile: bool
-    first_day: float
-    last_day: float
-    scene_unit: float
-    own_image: bpy.types.Image | None = None
-    peel_image: bpy.types.Image | None = None
-
-    @property
-    def images(self) -> dict[str, bpy.types.Image]:
-        """Images by the roles that show them."""
-        return {
-            "states": self.states,
-            "columns": self.places,
-            "rows": self.places,
-            **self.look,
-            "thick_colour": self.look["colour"],
-            "untanned": self.look["colour"],
-            **({"own_image": self.own_image} if self.own_image else {}),
-            **({"peel_image": self.peel_image} if self.peel_image else {}),
-        }
-
-    def of_history(self) -> list[bpy.types.Image]:
-        """The images that come from the history."""
-        return [self.states, self.places, *([self.peel_image] if self.peel_image else [])]
-
-    def of_look(self) -> list[bpy.types.Image]:
-        """The images that come from the look."""
-        return [*self.look.values(), *([self.own_image] if self.own_image else [])]
 
 
 def radius_of_millimetre(scene_unit: float) -> float:
@@ -163,51 +88,68 @@ def update(
             if node.image not in (None, image):
                 replaced[node.image] = image
             changes.set(node, "image", image)
-        if role in IMAGE_KEYS:
-            changes.set_key(group, IMAGE_KEYS[role], image)
+    for key, image in sampled.made.items():
+        changes.set_key(group, key, image)
+    for key in FORMER_KEYS:
+        changes.at_the_end(partial(group.pop, key, None))
+    by_role = places.of_roles(sampled)
+    for role, place in by_role.items():
+        for node in of_role(group, role):
+            shifts = any(role_of(own.from_node) in SHIFTS for own in node.inputs[0].links)
+            places.set_place(node, by_role["colour"] if shifts else place, changes)
     for role, values in _values(sampled).items():
         for node in of_role(group, role):
             is_math = node.bl_idname == "ShaderNodeMath" and "From Min" in values
             for socket, value in (_straight(values) if is_math else values).items():
                 end = node.outputs[0] if socket == OUT else find_input(node, socket)
-                changes.set(end, "default_value", value)
+                if end is not None:
+                    changes.set(end, "default_value", value)
     _set_profile(group, sampled, changes)
     return replaced
 
 
 def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
     """The images that were made for a group, as far as they are still in the file."""
-    return [image for key in IMAGE_KEYS.values() if (image := group.get(key)) is not None]
+    keys = (*IMAGE_KEYS.values(), *FORMER_KEYS)
+    return [image for key in keys if (image := group.get(key)) is not None]
 
 
 def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, ...] | None:
     """Images of states, of places and, if it peels, of that, where all were made for a group."""
-    shown = {node.image for role in ("states", "rows", "columns") for node in of_role(group, role)}
-    states, places = (group.get(IMAGE_KEYS[role]) for role in ("states", "columns"))
-    if states is None or places is None or shown != {states, places}:
+    shown = _shown(group, ("states", "rows", "columns"))
+    states, places = (group.get(IMAGE_KEYS[name]) for name in ("states", "places"))
+    if states is None or places is None or shown != {states, places} or not is_of_today(group):
         return None
-    peeling = {node.image for node in of_role(group, "peel_image")}
+    peeling = _shown(group, ("peel_image",))
     if peeling - {group.get(IMAGE_KEYS["peel_image"])} or None in peeling:
         return None
     return states, places, *peeling
 
 
 def own_look(group: bpy.types.NodeTree) -> dict[str, bpy.types.Image] | None:
-    """Images of the look by role, where a group shows those that were made for it."""
-    own = ["own_image"] if any(of_role(group, "own_image")) else []
-    made = {role: group.get(IMAGE_KEYS[role]) for role in (*LOOK, *own)}
-    for role, image in made.items():
-        if image is None or {node.image for node in of_role(group, role)} != {image}:
+    """Images of the look by name, where a group shows those that were made for it."""
+    own = {"own_image": ("own_image",)} if any(of_role(group, "own_image")) else {}
+    roles = {"colours": ("colour",), "light": LIGHT, **own}
+    made = {name: group.get(IMAGE_KEYS[name]) for name in roles}
+    for name, image in made.items():
+        if image is None or _shown(group, roles[name]) != {image} or not is_of_today(group):
             return None
     return made
 
 
+def _shown(group: bpy.types.NodeTree, roles: Iterable[str]) -> set[Any]:
+    """Images that nodes of some roles show."""
+    return {node.image for role in roles for node in of_role(group, role)}
+
+
+def is_of_today(group: bpy.types.NodeTree) -> bool:
+    """Whether a group shows images as Apply makes them today."""
+    return group.get(LAYOUT_KEY) == LAYOUT
+
+
 def missing_roles(group: bpy.types.NodeTree) -> list[str]:
     """Labels of nodes without which a group cannot show the tan, and which it lacks."""
-    needed = (
-        "day row rows row_place share column columns column_place place states state "
-        "melanin root look_column look_place colour mixed_colour"
-    )
+    needed = "day rows share columns states state melanin root look_place colour mixed_colour"
     return [ROLES[role].label for role in needed.split() if not list(of_role(group, role))]
 
 
@@ -226,7 +168,21 @@ def bridge(tree: Any, kept: Any, given: Any) -> None:
 
 def of_role(group: bpy.types.NodeTree, role: str) -> Iterator:
     """Nodes of a role: an artist may have duplicated some."""
-    return (node for node in group.nodes if node.get(ROLE_KEY) == role)
+    return (node for node in group.nodes if role_of(node) == role)
+
+
+def role_of(node: Any) -> str | None:
+    """The role of a node; a copy has that of what it was copied from."""
+    name = node.name
+    if name.startswith(ROLE_PREFIX):
+        return stem(name.removeprefix(ROLE_PREFIX))
+    return node.get(ROLE_KEY)
+
+
+def take_role(node: Any, changes: Changes) -> None:
+    """Have a node that goes when all else is done have no role any more."""
+    changes.set(node, "name", "Former")
+    changes.pop_key(node, ROLE_KEY)
 
 
 def set_roughness(trees: Collection[Any], group: Any, roughness: float, changes: Changes) -> None:
@@ -293,7 +249,7 @@ def complete(
 
 def link(group: Any, made: Collection[str], links: Sequence[Link] = LINKS) -> None:
     """Link nodes of some roles as a plan has it, other than into what is linked already."""
-    present = {node[ROLE_KEY]: node for node in group.nodes if ROLE_KEY in node}
+    present = {role_of(node): node for node in group.nodes}
     for source, output, target, socket in links:
         if {source, target} & set(made) and {source, target} <= set(present):
             start = find_output(present[source], output)
@@ -306,7 +262,7 @@ def new_node(group: Any, role: str, roles: Mapping[str, Role] = ROLES) -> Any:
     """A new node of a role, not linked yet."""
     plan = roles[role]
     node = group.nodes.new(plan.kind)
-    node.label, node.location, node[ROLE_KEY] = plan.label, plan.location, role
+    node.label, node.location, node.name = plan.label, plan.location, ROLE_PREFIX + role
     for name, value in plan.values.items():
         setattr(node, name, value)
     for socket, value in plan.inputs.items():
@@ -331,44 +287,39 @@ def _find(sockets: Any, socket: str | int) -> Any:
     return by_identifier.get(socket) or sockets.get(socket)
 
 
+SHIFTS = ("untanned_place", "own_untanned_place")
+"""Roles of nodes that lead to untanned skin which is not everywhere the same."""
+
 OUT = "output"
 """Stands for a node's first output, whose value is the node's."""
 
 
 def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
     """The values that Apply owns, by roles and inputs."""
-    columns, rows = sampled.look["colour"].size
-    steps = sampled.places.size[0]
-    half = 0.5 / rows
-    melanin = _between(sampled.melanin, 0.5 / columns, 1.0 - 0.5 / columns)
-    blood = _between(sampled.blood, half, 0.5 - half)
-    if sampled.blood[0] == sampled.blood[1]:
-        blood = _between((0.0, 1.0), half, half)
     low, high = (max(weight, 1e-6) for weight in (sampled.near_weight, 1.0 - sampled.near_weight))
-    days = (sampled.first_day, sampled.last_day)
     span = sampled.thickness[1] - sampled.thickness[0]
+    days = places.of_roles(sampled)["rows"]
     # Groups made before `two_lobes` have no link into the factor of `lobes` and `far_scaled`.
     return {
-        "column": _between((0.0, 1.0), 0.5 / steps, 1.0 - 0.5 / steps),
-        "row": _between(days, 0.5 / steps, 1.0 - 0.5 / steps),
-        "look_column": melanin,
-        "look_row": blood,
         "thickness": _between(sampled.thickness, 0.0, 1.0),
         "thickness_slope": {1: -sampled.bulge / span**2, 2: (1.0 + sampled.bulge) / span},
-        **dict.fromkeys(("region_column", "own_column"), melanin),
-        **dict.fromkeys(("region_row", "own_row"), blood),
-        "untanned_place": {"X": _mapped(melanin, 1.0), "Y": _mapped(blood, 0.0)},
+        "peel_row": {1: days.scale[0], 2: days.start[0]},
+        **dict.fromkeys(("look_row", "region_row", "own_row"), _cut(sampled.blood)),
         "gain": {2: (sampled.level,) * 3},
         "near_scaled": {"Scale": 1.0 / low if sampled.near_weight > 0.0 else 0.0},
         "far_scaled": {"Scale": 1.0 / high},
         "lobes": {0: 1.0 - sampled.near_weight},
         "far_weight": {1: -sampled.near_weight},
         "far_factor": {1: 1.0 / high - 1.0},
-        "cubic": {1: sampled.through[3], 2: sampled.through[2]},
-        "quadratic": {2: sampled.through[1]},
-        "through": {2: sampled.through[0]},
         "radius": {OUT: radius_of_millimetre(sampled.scene_unit)},
     }
+
+
+def _cut(ends: tuple[float, float]) -> dict[str | int, float]:
+    """Values of a node that cuts to two ends; one of earlier versions mapped them to places."""
+    low, high = ends
+    kept = ends if high > low else (0.0, 1.0)
+    return {"Min": low, "Max": high, **_between(kept, *kept)}
 
 
 def _between(ends: tuple[float, float], low: float, high: float) -> dict[str | int, float]:
@@ -380,12 +331,6 @@ def _straight(ends: Mapping[str | int, float]) -> dict[str | int, float]:
     """The same for a node that multiplies and adds; beyond their ends images hold their edge."""
     slope = (ends["To Max"] - ends["To Min"]) / (ends["From Max"] - ends["From Min"])
     return {1: slope, 2: ends["To Min"] - slope * ends["From Min"]}
-
-
-def _mapped(ends: Mapping[str | int, float], value: float) -> float:
-    """What a node with these values maps a value to."""
-    part = (value - ends["From Min"]) / (ends["From Max"] - ends["From Min"])
-    return ends["To Min"] + min(max(part, 0.0), 1.0) * (ends["To Max"] - ends["To Min"])
 
 
 def _set_profile(group: Any, sampled: Sampled, changes: Changes) -> None:

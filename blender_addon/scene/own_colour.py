@@ -13,6 +13,7 @@ from . import images, nodes, replaced
 from .changes import Changes
 from .plan import Link, Role, math_role, vector_role
 from .recolour import PAINTED_COLOUR, SHARE_OF_PAINTED
+from .sampled import IMAGE_KEYS
 
 LEAST = 0.01
 """Least red and green over those of the usual colour: black has no logarithm."""
@@ -42,11 +43,9 @@ ROLES = {
     "own_blood": math_role("ADD", "With own blood", (280, -240)),
     "own_untanned": math_role("MULTIPLY", "Own untanned melanin", (200, 1750), at_1=1.0),
     "own_root": math_role("SQRT", "Root of own melanin", (350, 1750)),
-    "own_column": math_role("MULTIPLY_ADD", "Own untanned melanin to column", (500, 1750)),
+    "own_row": Role("ShaderNodeClamp", "Blood of which the look tells", (500, 1600)),
+    "own_untanned_place": Role("ShaderNodeCombineXYZ", "Own untanned", (650, 1700)),
     "own_untanned_blood": math_role("ADD", "Own untanned blood", (200, 1600), at_1=0.0),
-    "own_row": Role(
-        "ShaderNodeMapRange", "Own untanned blood to row", (500, 1600), {"clamp": True}
-    ),
 }
 
 LINKS: tuple[Link, ...] = (
@@ -74,21 +73,21 @@ LINKS: tuple[Link, ...] = (
     ("own_more", "Value", "own_untanned", 0),
     ("regions", "Melanin", "own_untanned", 1),
     ("own_untanned", "Value", "own_root", 0),
-    ("own_root", "Value", "own_column", 0),
-    ("own_column", "Value", "untanned_place", "X"),
+    ("own_root", "Value", "own_untanned_place", "X"),
     ("own_redder", "Value", "own_untanned_blood", 0),
     ("regions", "Blood", "own_untanned_blood", 1),
     ("own_untanned_blood", "Value", "own_row", "Value"),
-    ("own_row", "Result", "untanned_place", "Y"),
+    ("own_row", "Result", "own_untanned_place", "Y"),
+    ("own_untanned_place", "Vector", "untanned", "Vector"),
 )
 
 REPLACED: tuple[Link, ...] = (
     ("more_melanin", "Value", "root", 0),
     ("more_blood", "Value", "blood", 1),
-    ("region_column", "Value", "untanned_place", "X"),
-    ("region_row", "Result", "untanned_place", "Y"),
+    ("untanned_place", "Vector", "untanned", "Vector"),
+    ("look_place", "Vector", "untanned", "Vector"),
 )
-"""Links of a group without these nodes whose place others take; the last two if it has regions."""
+"""Links of a group without these nodes whose place others take; of the last two it has one."""
 
 INPUTS = {
     PAINTED_COLOUR: ("NodeSocketColor", "The colour that Ratio multiplies, which says how it tans"),
@@ -165,7 +164,7 @@ def _take_out(group: Any, changes: Changes) -> None:
     replaced.link_again(group, REPLACED, ROLES)
     going = [node for role in ROLES for node in nodes.of_role(group, role)]
     changes.at_the_end(partial(_remove, group, going))
-    image = changes.pop_key(group, nodes.IMAGE_KEYS["own_image"])
+    image = changes.pop_key(group, IMAGE_KEYS["own_image"])
     if image is not None:
         changes.at_the_end(partial(images.remove_if_unused, image))
 

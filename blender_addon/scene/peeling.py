@@ -16,7 +16,8 @@ from .changes import Changes
 from .detail import millimetres
 from .mask_nodes import ShownMask
 from .plan import LINKS as TAN_LINKS
-from .plan import ROLE_KEY, Link, Role
+from .plan import Link, Role, math_role, vector_role
+from .sampled import IMAGE_KEYS
 from .stand_ins import StandIn
 
 FLAKE = (0.62, 0.55, 0.49, 1.0)
@@ -34,21 +35,26 @@ ROLES = {
     "peel_colour": Role(
         "ShaderNodeMix", "Flakes", (1350, 500), {"data_type": "RGBA"}, {"B_Color": FLAKE}
     ),
+    "peel_normal": vector_role("NORMALIZE", "Normal of the skin", (2050, -700)),
     "peel_relief": Role("ShaderNodeBump", "Relief of flakes", (2200, -700), {}, {"Strength": 1.0}),
 }
 
-OF_MASKS = {"peel_masks": Role("ShaderNodeGroup", "Peeling of several masks", (-450, -500))}
+OF_MASKS = {
+    "peel_row": math_role("MULTIPLY_ADD", "Day to row", (-700, -600)),
+    "peel_masks": Role("ShaderNodeGroup", "Peeling of several masks", (-450, -500)),
+}
 
 OF_MASKS_LINKS: tuple[Link, ...] = (
-    ("row", "Value", "peel_masks", "Day"),
+    ("day", "Fac", "peel_row", 0),
+    ("peel_row", "Value", "peel_masks", "Day"),
     ("peel_masks", "Peeling", "peel", "Peeling"),
 )
 
 OF_ONE: Link = ("peel_image", "Color", "peel", "Peeling")
 
 LINKS: tuple[Link, ...] = (
-    ("column", "Value", "peel_place", "X"),
-    ("row", "Value", "peel_place", "Y"),
+    ("share", "Value", "peel_place", "X"),
+    ("day", "Fac", "peel_place", "Y"),
     ("peel_place", "Vector", "peel_image", "Vector"),
     OF_ONE,
     ("peel", "Flakes", "peel_colour", "Factor_Float"),
@@ -57,8 +63,9 @@ LINKS: tuple[Link, ...] = (
 
 STAND_INS = {
     "peel": StandIn("states", "Color", "State", "State"),
-    "peel_colour": StandIn("mixed_colour", "Result_Color", "A_Color", "Result_Color"),
-    "peel_relief": StandIn("normal", "Vector", "Normal", "Normal"),
+    "peel_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color"),
+    "peel_normal": StandIn("normal", "Vector", 0, "Vector"),
+    "peel_relief": StandIn("peel_normal", "Vector", "Normal", "Normal"),
 }
 OF_SEVERAL = StandIn("basis", "State", "State", "State")
 """What the first stands in for where a tan has several masks."""
@@ -141,18 +148,22 @@ def _show_masks(group: Any, tree: Any, changes: Changes) -> None:
         for link in list(peel.inputs["Peeling"].links):
             group.links.remove(link)
     if tree is not None:
-        nodes.new_node(group, "peel_masks", OF_MASKS).node_tree = tree
         for node in former:
-            changes.set_key(node, ROLE_KEY, "")
+            nodes.take_role(node, changes)
+        lacking = [role for role in OF_MASKS if not any(nodes.of_role(group, role))]
+        nodes.complete(group, lacking, OF_MASKS, OF_MASKS_LINKS)
+        for node in nodes.of_role(group, "peel_masks"):
+            node.node_tree = tree
         nodes.link(group, OF_MASKS, OF_MASKS_LINKS)
     else:
+        former += nodes.of_role(group, "peel_row")
         nodes.link(group, ("peel_image",), (OF_ONE,))
     changes.at_the_end(partial(_remove, group, former))
 
 
 def _remove(group: Any, going: Sequence[Any]) -> None:
     for node in going:
-        tree = node.node_tree
+        tree = getattr(node, "node_tree", None)
         group.nodes.remove(node)
         if tree is not None and tree.users == 0:
             bpy.data.node_groups.remove(tree)
@@ -168,9 +179,9 @@ def set_size(group: Any, obj: bpy.types.Object, scene_unit: float, changes: Chan
 
 
 def _take_out(group: Any) -> None:
-    _remove(group, list(nodes.of_role(group, "peel_masks")))
+    _remove(group, [node for role in OF_MASKS for node in nodes.of_role(group, role)])
     stand_ins.take_out(group, STAND_INS, ROLES)
-    image = group.pop(nodes.IMAGE_KEYS["peel_image"], None)
+    image = group.pop(IMAGE_KEYS["peel_image"], None)
     if image is not None and image.users == 0:
         bpy.data.images.remove(image)
     peeling_nodes.remove_unused_group()

@@ -8,13 +8,17 @@ the angle of view, to the base colours of two shaders.
 from dataclasses import dataclass, field
 from typing import Any
 
-LAYOUT_KEY, LAYOUT = "skin_tan_layout", 2
+LAYOUT_KEY, LAYOUT = "skin_tan_layout", 3
 """Custom property of a group that says that this add-on made it, and by which plan."""
 
 PROFILE_KEY = "skin_tan_profile"
 """Custom property of a group: whether its table has a profile, so that light scatters below."""
 
+ROLE_PREFIX = "skin_tan:"
+"""What the names of our nodes begin with; their role follows. Their labels are for artists."""
+
 ROLE_KEY = "skin_tan_role"
+"""Custom property of a node of earlier versions: its role. It took 400 bytes of a file."""
 
 DAY_PROPERTY = "tan_day"
 
@@ -27,9 +31,9 @@ SEEN = 0.00973
 SHARPEST = 0.3
 """Roughness of fully oiled skin's sharper gloss over that of the skin, by eye."""
 
-MOST_BASE = (0.999, 0.999, 0.999)
-"""What a base colour is cut to; with more than 1 a shader would make light."""
-
+LONG = 1e5
+"""What a normal is multiplied by, so that one which is added turns it by no more than 1e-5. Where
+none is given that of the mesh is left. Shaders bring them to a length of 1."""
 
 Link = tuple[str, str | int, str, str | int]
 """From a role and its output to a role and its input."""
@@ -76,10 +80,6 @@ def vector_role(operation: str, label: str, location: tuple[int, int], **inputs:
     return Role("ShaderNodeVectorMath", label, location, {"operation": operation}, numbered)
 
 
-def _range(label: str, location: tuple[int, int]) -> Role:
-    return Role("ShaderNodeMapRange", label, location, {"clamp": True})
-
-
 def _principled(label: str, location: tuple[int, int]) -> Role:
     values = {"subsurface_method": "BURLEY", "distribution": "MULTI_GGX"}
     return Role(
@@ -91,15 +91,19 @@ def _principled(label: str, location: tuple[int, int]) -> Role:
     )
 
 
-LOOK = {
-    "colour": "Colour",
-    "bend": "Bend",
-    "bow": "Bow",
-    "near": "Near share",
-    "width": "Far width",
+LOOK = {"colours": "Colours", "light": "Light"}
+"""The images of a look by the names of the numbers, and how they are called."""
+
+LIGHT = ("bend", "bow", "near", "width")
+"""Roles of the nodes that show the image of light, by its rows from the bottom; its last row is for
+`let_through`. `bend` and `bow` tell how colour changes with the angle of view."""
+
+CHANNEL_ROLES = {
+    "mask_channel": vector_role("DOT_PRODUCT", "Channel of the mask", (-2300, 400)),
+    "mask_alpha": math_role("MULTIPLY_ADD", "Alpha of the mask", (-2100, 350)),
 }
-"""Roles of the images of a look, and how they are called. `bend` and `bow` tell how colour changes
-with the angle of view."""
+"""Nodes of a mask of which one channel counts, or which is an image. A group gets them and those of
+`IMAGE_ROLES` with the first such mask: others need none of them, and a node is 3 kB of a file."""
 
 IMAGE_ROLES = {
     "mask_uv": Role("ShaderNodeUVMap", "UV map of the mask", (-2700, 50)),
@@ -107,13 +111,10 @@ IMAGE_ROLES = {
     "image_channel": vector_role("DOT_PRODUCT", "Channel of the image", (-2200, 100)),
     "image_alpha": math_role("MULTIPLY_ADD", "Alpha of the image", (-2000, 50)),
 }
-"""Nodes of a mask that is an image. A group gets them with the first such mask, for others have no
-need of them: a node takes 4 kB of a file."""
+"""Nodes of a mask that is an image."""
 
 ROLES = {
     "mask": Role("ShaderNodeAttribute", "Share", (-2500, 350), {"attribute_type": "GEOMETRY"}),
-    "mask_channel": vector_role("DOT_PRODUCT", "Channel of the mask", (-2300, 400)),
-    "mask_alpha": math_role("MULTIPLY_ADD", "Alpha of the mask", (-2100, 350)),
     "mask_value": Role(
         "ShaderNodeMath",
         "Mask, cut to 0 to 1",
@@ -121,21 +122,16 @@ ROLES = {
         {"operation": "ADD", "use_clamp": True},
         {1: 0.0},
     ),
-    "mask_share": math_role("MULTIPLY_ADD", "Invert and strength", (-1600, 250)),
-    "share": math_role("MAXIMUM", "Share or all", (-1400, 250)),
+    "share": math_role("MULTIPLY_ADD", "Invert and strength", (-1600, 250)),
     "day": Role(
         "ShaderNodeAttribute",
         "Day",
         (-1400, 0),
         {"attribute_type": "OBJECT", "attribute_name": DAY_PROPERTY},
     ),
-    "column": math_role("MULTIPLY_ADD", "Share to column", (-1200, 250)),
-    "row": math_role("MULTIPLY_ADD", "Day to row", (-1200, 0)),
     "columns": _image("Columns of shares", (-1000, 250)),
     "rows": _image("Rows of days", (-1000, -50)),
-    "column_place": Role("ShaderNodeSeparateXYZ", "Column", (-700, 250)),
-    "row_place": Role("ShaderNodeSeparateXYZ", "Row", (-700, -50)),
-    "place": Role("ShaderNodeCombineXYZ", "Place in table", (-500, 150)),
+    "state_place": vector_role("ADD", "Place of the state", (-500, 150)),
     "states": _image("States", (-300, 150)),
     "state": Role("ShaderNodeSeparateXYZ", "Melanin, thickness, blood", (0, 150)),
     "input": Role("NodeGroupInput", "", (-200, 500)),
@@ -145,32 +141,23 @@ ROLES = {
     "least_blood": math_role("MAXIMUM", "Some blood", (0, -100), at_1=0.001),
     "more_blood": math_role("LOGARITHM", "Logarithm of blood", (200, -100), at_1=2.718281828),
     "blood": math_role("ADD", "More or less blood", (350, -100)),
-    "look_column": math_role("MULTIPLY_ADD", "Melanin to column", (500, 150)),
-    "look_row": _range("Blood to row", (500, -100)),
+    "look_row": Role("ShaderNodeClamp", "Blood of which the look tells", (500, -100)),
     "thickness_slope": math_role("MULTIPLY_ADD", "Thin to thick, slope", (350, -350)),
-    "thickness": math_role("MULTIPLY_ADD", "Thin to thick", (500, -350)),
-    "look_place": Role("ShaderNodeCombineXYZ", "Place in look", (700, 150)),
-    "thick_place": vector_role(
-        "MULTIPLY_ADD",
-        "Place for thick skin",
-        (700, -50),
-        at_1=(1.0, -1.0, 1.0),
-        at_2=(0.0, 1.0, 0.0),
+    "thickness": Role(
+        "ShaderNodeMath",
+        "Thin to thick",
+        (500, -350),
+        {"operation": "MULTIPLY_ADD", "use_clamp": True},
     ),
-    "middle_place": vector_role(
-        "MULTIPLY", "Place for all skin", (700, -250), at_1=(1.0, 2.0, 1.0)
-    ),
-    # Files without roles call two of them so.
+    "look_place": Role("ShaderNodeCombineXYZ", "Root of melanin, blood", (700, 150)),
+    # The first version called this one and that of the width so.
     "colour": _image("Colour", (900, 500)),
-    "thick_colour": _image("Colour, thick skin", (900, 200)),
-    "mixed_colour": Role(
-        "ShaderNodeMix", "By thickness", (1200, 500), {"data_type": "RGBA", "clamp_factor": True}
-    ),
+    "thick_colour": _image("Colour of thick skin, less that", (900, 200)),
+    "mixed_colour": vector_role("MULTIPLY_ADD", "By thickness", (1200, 500)),
     "bend": _image("Bend", (900, -100)),
     "bow": _image("Bow", (900, -400)),
     "near": _image("Near share", (900, -700)),
     "width": _image("Profile width (mm)", (900, -1000)),
-    "untanned_place": Role("ShaderNodeCombineXYZ", "Untanned", (700, 800)),
     "untanned": _image("Untanned colour", (900, 800)),
     "ratio": vector_role("DIVIDE", "Ratio to untanned", (1500, 800)),
     "facing": Role("ShaderNodeLayerWeight", "Angle of view", (1000, 1050), {}, {"Blend": 0.5}),
@@ -180,31 +167,28 @@ ROLES = {
     "base": vector_role("MULTIPLY", "Base colour", (1700, 400)),
     "near_part": vector_role("MULTIPLY", "Near part", (1850, 200)),
     "far_part": vector_role("SUBTRACT", "Far part", (1850, 400)),
-    "near_scaled": vector_role("SCALE", "By weight of near light", (2000, 200)),
-    "far_scaled": vector_role("SCALE", "By weight of far light", (2000, 400)),
-    "near_base": vector_role("MINIMUM", "Base of near light", (2150, 200), at_1=MOST_BASE),
-    "far_base": vector_role("MINIMUM", "Base of far light", (2150, 400), at_1=MOST_BASE),
+    "near_scaled": vector_role("SCALE", "Base of near light", (2000, 200)),
+    "far_base": vector_role("DIVIDE", "Base of far light", (2000, 400)),
     "radius": Role("ShaderNodeValue", "Width to radius", (2000, -100)),
     "dryness": math_role(
         "MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0
     ),
     "sharper": math_role("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
-    "given": vector_role("LENGTH", "Length of the given normal", (1900, -300)),
-    "without": math_role("LESS_THAN", "No normal given", (2050, -300), at_1=0.5),
     "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
-    "own_normal": vector_role("SCALE", "Normal of the mesh or none", (2050, -500)),
-    "normal": vector_role("ADD", "Normal", (2200, -400)),
+    "normal": vector_role(
+        "MULTIPLY_ADD", "Normal, or that of the mesh", (2200, -400), at_1=(LONG,) * 3
+    ),
     # A second shader takes a fourth more time, so that where both would have one gloss the near
     # light is that of a diffuse shader, whose colour takes account of the gloss.
     "two_lobes": math_role("GREATER_THAN", "Whether one gloss is sharper", (1250, 900), at_1=0.0),
     "far_weight": math_role("MULTIPLY_ADD", "Weight of far light", (1900, 700), at_2=1.0),
-    "far_factor": math_role("MULTIPLY_ADD", "Over that weight", (1900, 550), at_2=1.0),
-    "cubic": math_role("MULTIPLY_ADD", "Gloss by angle, last terms", (1250, 1100)),
-    "quadratic": math_role("MULTIPLY_ADD", "Gloss by angle, first terms", (1400, 1100)),
-    "square": math_role("MULTIPLY", "Square of the angle of view", (1400, 1250)),
-    "through": math_role("MULTIPLY_ADD", "What the gloss lets through", (1550, 1100)),
-    "one_lobe": math_role("SUBTRACT", "Whether there is one gloss", (1550, 900), at_0=1.0),
-    "beneath": math_role("MULTIPLY", "What one gloss lets through", (1700, 1000)),
+    "let_through": _image("What the gloss lets through", (1400, 1100)),
+    "beneath": Role(
+        "ShaderNodeMath",
+        "What one gloss lets through, or two nothing",
+        (1700, 1000),
+        {"operation": "SUBTRACT", "use_clamp": True},
+    ),
     "near_shown": vector_role("SCALE", "Near light", (2150, 800)),
     "near_light": Role("ShaderNodeBsdfDiffuse", "Near light beneath one gloss", (2350, 800)),
     "near_skin": _principled("Skin, near light", (2350, 0)),
@@ -215,12 +199,19 @@ ROLES = {
 }
 
 SHADERS = frozenset(
-    "dryness sharper given without geometry own_normal normal two_lobes far_weight far_factor "
-    "cubic quadratic square through one_lobe beneath near_shown near_light light "
-    "near_skin lobes near_base far_base near_scaled far_scaled near_part far_part base gain slope "
+    "dryness sharper geometry normal two_lobes far_weight "
+    "let_through beneath near_shown near_light light "
+    "near_skin lobes far_base near_scaled near_part far_part base gain slope "
     "facing turned".split()
 )
 """Roles that nobody needs where an artist has put another shader in place of ours."""
+
+CHANNEL_LINKS: tuple[Link, ...] = (
+    ("mask", "Color", "mask_channel", 0),
+    ("mask", "Alpha", "mask_alpha", 0),
+    ("mask_channel", "Value", "mask_alpha", 2),
+)
+"""Links of the nodes of a mask's channel; the last one leads to what the mask's number led to."""
 
 IMAGE_LINKS: tuple[Link, ...] = (
     ("mask_uv", "UV", "mask_image", "Vector"),
@@ -232,47 +223,34 @@ IMAGE_LINKS: tuple[Link, ...] = (
 """Links of the nodes of a mask that is an image."""
 
 LINKS: tuple[Link, ...] = (
-    ("mask", "Color", "mask_channel", 0),
-    ("mask", "Alpha", "mask_alpha", 0),
-    ("mask_channel", "Value", "mask_alpha", 2),
-    ("mask_alpha", "Value", "mask_value", 0),
-    ("mask_value", "Value", "mask_share", 0),
-    ("mask_share", "Value", "share", 0),
-    ("share", "Value", "column", 0),
-    ("day", "Fac", "row", 0),
-    ("column", 0, "columns", "Vector"),
-    ("row", 0, "rows", "Vector"),
-    ("columns", "Color", "column_place", "Vector"),
-    ("rows", "Color", "row_place", "Vector"),
-    ("column_place", "X", "place", "X"),
-    ("row_place", "Y", "place", "Y"),
-    ("place", "Vector", "states", "Vector"),
+    ("mask", "Fac", "mask_value", 0),
+    ("mask_value", "Value", "share", 0),
+    ("share", "Value", "columns", "Vector"),
+    ("day", "Fac", "rows", "Vector"),
+    ("columns", "Color", "state_place", 0),
+    ("rows", "Color", "state_place", 1),
+    ("state_place", "Vector", "states", "Vector"),
     ("states", "Color", "state", "Vector"),
     ("state", "X", "melanin", 0),
     ("melanin", "Value", "more_melanin", 0),
     ("input", "Melanin", "more_melanin", 1),
     ("more_melanin", "Value", "root", 0),
-    ("root", "Value", "look_column", 0),
+    ("root", "Value", "look_place", "X"),
     ("input", "Blood", "least_blood", 0),
     ("least_blood", "Value", "more_blood", 0),
     ("state", "Z", "blood", 0),
     ("more_blood", "Value", "blood", 1),
     ("blood", "Value", "look_row", "Value"),
     ("state", "Y", "thickness_slope", 0),
-    ("state", "Y", "thickness", 0),
     ("thickness_slope", "Value", "thickness", 1),
-    ("look_column", "Value", "look_place", "X"),
     ("look_row", "Result", "look_place", "Y"),
-    ("look_place", "Vector", "thick_place", 0),
-    ("look_place", "Vector", "middle_place", 0),
-    ("look_place", "Vector", "colour", "Vector"),
-    ("thick_place", "Vector", "thick_colour", "Vector"),
-    ("thickness", "Value", "mixed_colour", "Factor_Float"),
-    ("colour", "Color", "mixed_colour", "A_Color"),
-    ("thick_colour", "Color", "mixed_colour", "B_Color"),
-    *(("middle_place", "Vector", role, "Vector") for role in ("bend", "bow", "near", "width")),
-    ("untanned_place", "Vector", "untanned", "Vector"),
-    ("mixed_colour", "Result_Color", "ratio", 0),
+    ("state", "Y", "thickness", 0),
+    *(("look_place", "Vector", role, "Vector") for role in ("colour", "thick_colour", *LIGHT)),
+    ("thick_colour", "Color", "mixed_colour", 0),
+    ("thickness", "Value", "mixed_colour", 1),
+    ("colour", "Color", "mixed_colour", 2),
+    ("look_place", "Vector", "untanned", "Vector"),
+    ("mixed_colour", "Vector", "ratio", 0),
     ("untanned", "Color", "ratio", 1),
     ("bow", "Color", "slope", 0),
     ("facing", "Facing", "turned", 0),
@@ -280,17 +258,16 @@ LINKS: tuple[Link, ...] = (
     ("bend", "Color", "slope", 2),
     ("slope", "Vector", "gain", 0),
     ("turned", "Value", "gain", 1),
-    ("mixed_colour", "Result_Color", "base", 0),
+    ("mixed_colour", "Vector", "base", 0),
     ("gain", "Vector", "base", 1),
     ("base", "Vector", "near_part", 0),
     ("near", "Color", "near_part", 1),
     ("base", "Vector", "far_part", 0),
     ("near_part", "Vector", "far_part", 1),
     ("near_part", "Vector", "near_scaled", 0),
-    ("far_part", "Vector", "far_scaled", 0),
-    ("near_scaled", "Vector", "near_base", 0),
-    ("far_scaled", "Vector", "far_base", 0),
-    ("near_base", "Vector", "near_skin", "Base Color"),
+    ("far_part", "Vector", "far_base", 0),
+    ("far_weight", "Value", "far_base", 1),
+    ("near_scaled", "Vector", "near_skin", "Base Color"),
     ("far_base", "Vector", "skin", "Base Color"),
     ("width", "Color", "skin", "Subsurface Radius"),
     ("radius", "Value", "skin", "Subsurface Scale"),
@@ -299,30 +276,18 @@ LINKS: tuple[Link, ...] = (
     ("dryness", "Value", "sharper", 0),
     ("input", "Roughness", "sharper", 1),
     ("sharper", "Value", "near_skin", "Roughness"),
-    ("input", "Normal", "given", 0),
-    ("given", "Value", "without", 0),
-    ("geometry", "Normal", "own_normal", 0),
-    ("without", "Value", "own_normal", "Scale"),
     ("input", "Normal", "normal", 0),
-    ("own_normal", "Vector", "normal", 1),
+    ("geometry", "Normal", "normal", 2),
     *(("normal", "Vector", role, "Normal") for role in ("skin", "near_skin")),
     *(("input", "Specular", role, "Specular IOR Level") for role in ("skin", "near_skin")),
     ("near_skin", "BSDF", "lobes", 1),
     ("skin", "BSDF", "lobes", 2),
     ("input", "Oil", "two_lobes", 0),
     ("two_lobes", "Value", "far_weight", 0),
-    ("two_lobes", "Value", "far_factor", 0),
     ("far_weight", "Value", "lobes", 0),
-    ("far_factor", "Value", "far_scaled", "Scale"),
-    ("facing", "Facing", "cubic", 0),
-    ("cubic", "Value", "quadratic", 0),
-    ("facing", "Facing", "quadratic", 1),
-    *(("facing", "Facing", "square", number) for number in (0, 1)),
-    ("quadratic", "Value", "through", 0),
-    ("square", "Value", "through", 1),
-    ("two_lobes", "Value", "one_lobe", 1),
-    ("through", "Value", "beneath", 0),
-    ("one_lobe", "Value", "beneath", 1),
+    ("facing", "Facing", "let_through", "Vector"),
+    ("let_through", "Color", "beneath", 0),
+    ("two_lobes", "Value", "beneath", 1),
     ("near_part", "Vector", "near_shown", 0),
     ("beneath", "Value", "near_shown", "Scale"),
     ("near_shown", "Vector", "near_light", "Color"),
@@ -330,7 +295,7 @@ LINKS: tuple[Link, ...] = (
     ("lobes", "Shader", "light", 0),
     ("near_light", "BSDF", "light", 1),
     ("light", "Shader", "output", "Surface"),
-    ("mixed_colour", "Result_Color", "output", "Colour"),
+    ("mixed_colour", "Vector", "output", "Colour"),
     ("width", "Color", "output", "Far Width"),
     ("ratio", "Vector", "output", "Ratio"),
     ("near", "Color", "output", "Near Share"),

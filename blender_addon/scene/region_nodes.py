@@ -15,7 +15,7 @@ import bpy
 from . import mask_nodes, nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
-from .plan import ROLE_KEY, Role, math_role, vector_role
+from .plan import ROLE_PREFIX, Role, math_role, vector_role
 
 SHOWN_KEY = "skin_tan_regions"
 """Custom property of the group: the regions for which it was made."""
@@ -84,13 +84,13 @@ Shown = Sequence[tuple[Region, ShownMask | None]]
 
 def told(shown: Shown) -> str:
     """The regions as text, to see whether they have changed."""
-    return json.dumps(
-        [(asdict(region), mask and {**vars(mask), "image": _name(mask)}) for region, mask in shown]
-    )
+    return json.dumps([(asdict(region), mask and _told(mask)) for region, mask in shown])
 
 
-def _name(mask: ShownMask) -> str:
-    return mask.image.name_full if mask.image else ""
+def _told(mask: ShownMask) -> dict[str, Any]:
+    told = {**vars(mask), "image": mask.image.name_full if mask.image else ""}
+    del told["by_channel"]  # follows from the rest, and earlier versions did not tell it
+    return told
 
 
 def new_tree(name: str, shown: Shown, changes: Changes) -> Any:
@@ -181,7 +181,7 @@ def _place(tree: Any) -> Any:
             tree,
             Role("ShaderNodeVectorMath", "Place in mm", (-1000, 300), {"operation": "MULTIPLY"}),
         )
-        place[ROLE_KEY] = PLACE
+        place.name = ROLE_PREFIX + PLACE
         tree.links.new(rest.outputs["Generated"], place.inputs[0])
         noise = _node(tree, Role("ShaderNodeTexNoise", "Spots are not round", (-1000, 600)))
         nodes.find_input(noise, "Scale").default_value = BENT_PER_MILLIMETRE
@@ -197,7 +197,7 @@ def _place(tree: Any) -> Any:
                 {1: (BENT_MILLIMETRES,) * 3},
             ),
         )
-        bent[ROLE_KEY] = BENT
+        bent.name = ROLE_PREFIX + BENT
         tree.links.new(noise.outputs["Color"], bent.inputs[0])
         tree.links.new(place.outputs[0], bent.inputs[2])
     return next(nodes.of_role(tree, BENT))

@@ -27,8 +27,8 @@ ROLES = {
     "region_melanin": math_role("MULTIPLY", "Melanin of regions", (250, 420)),
     "region_blood": math_role("ADD", "Blood of regions", (400, -220)),
     "region_root": math_role("SQRT", "Root of untanned melanin", (200, 900)),
-    "region_column": math_role("MULTIPLY_ADD", "Untanned melanin to column", (400, 900)),
-    "region_row": Role("ShaderNodeMapRange", "Untanned blood to row", (400, 700), {"clamp": True}),
+    "region_row": Role("ShaderNodeClamp", "Blood of which the look tells", (400, 700)),
+    "untanned_place": Role("ShaderNodeCombineXYZ", "Untanned", (700, 800)),
     "region_burn": math_role("MINIMUM", "What does not tan does not redden", (0, -250), at_1=1.0),
     "region_redness": math_role("MULTIPLY", "Redness of regions", (200, -250)),
     "region_light": vector_role("MULTIPLY", "Light of regions", (1100, 600)),
@@ -37,11 +37,13 @@ ROLES = {
 }
 
 LIGHTS = {
-    "region_light": ("colour", ("mixed_colour", "A_Color")),
-    "region_thick_light": ("thick_colour", ("mixed_colour", "B_Color")),
+    "region_light": ("colour", ("mixed_colour", 2)),
+    "region_thick_light": ("thick_colour", ("mixed_colour", 0)),
     "region_untanned_light": ("untanned", ("ratio", 1)),
 }
 """Roles that multiply a colour of the skin's look, of which image, and what it leads to."""
+
+UNTANNED: Link = ("untanned_place", "Vector", "untanned", "Vector")
 
 LINKS: tuple[Link, ...] = (
     ("state", "X", "region_tan", 0),
@@ -54,10 +56,10 @@ LINKS: tuple[Link, ...] = (
     ("regions", "Blood", "region_blood", 1),
     ("region_blood", "Value", "look_row", "Value"),
     ("regions", "Melanin", "region_root", 0),
-    ("region_root", "Value", "region_column", 0),
-    ("region_column", "Value", "untanned_place", "X"),
+    ("region_root", "Value", "untanned_place", "X"),
     ("regions", "Blood", "region_row", "Value"),
     ("region_row", "Result", "untanned_place", "Y"),
+    UNTANNED,
     ("regions", "Tan", "region_burn", 0),
     ("state", "Z", "region_redness", 0),
     ("region_burn", "Value", "region_redness", 1),
@@ -79,6 +81,7 @@ REPLACED: tuple[Link, ...] = (
     ("state", "X", "melanin", 0),
     ("melanin", "Value", "more_melanin", 0),
     ("blood", "Value", "look_row", "Value"),
+    ("look_place", "Vector", "untanned", "Vector"),
     *OF_LATER,
 )
 """Links of a group without regions whose place others take."""

@@ -12,7 +12,7 @@ import bpy
 
 from . import nodes
 from .changes import Changes
-from .plan import ROLE_KEY, Link
+from .plan import Link
 
 
 def unlink(group: Any, replaced: Iterable[Link]) -> None:
@@ -20,16 +20,16 @@ def unlink(group: Any, replaced: Iterable[Link]) -> None:
     for source, _, target, socket in replaced:
         for kept in nodes.of_role(group, target):
             for former in list(nodes.find_input(kept, socket).links):
-                if former.from_node.get(ROLE_KEY) == source:
+                if nodes.role_of(former.from_node) == source:
                     group.links.remove(former)
 
 
-def link_again(group: Any, replaced: Iterable[Link], roles: Container[str]) -> None:
+def link_again(group: Any, replaced: Iterable[Link], roles: Container[str | None]) -> None:
     """Make links again where nodes of some roles have taken their place."""
     for source, output, target, socket in replaced:
         for kept in nodes.of_role(group, target):
             end = nodes.find_input(kept, socket)
-            if any(former.from_node.get(ROLE_KEY) in roles for former in end.links):
+            if any(nodes.role_of(former.from_node) in roles for former in end.links):
                 for start in nodes.of_role(group, source):
                     group.links.new(nodes.find_output(start, output), end)
 

@@ -20,6 +20,7 @@ from .images import remove_if_unused
 from .mask_nodes import ShownMask
 from .nodes import link, new_node, of_role
 from .ownership import remembered
+from .places import copy_place
 from .plan import LINKS, Link, Role
 from .replaced import remove_nodes, show_tree
 from .several_nodes import ATTRIBUTES_KEY, Basis, Grid
@@ -59,6 +60,7 @@ def show(
     changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks; which new image replaces which former one."""
+    (*_, rows) = of_role(group, "rows")
     node = next(of_role(group, "basis"), None)
     made = {"rows": basis.rows, "days": basis.days, "places": grid.places}
     made |= {GRID.format(block): image for block, image in enumerate(grid.images)}
@@ -76,8 +78,10 @@ def show(
             link(group, ("basis",), _links("basis"))
     for output, (role, former_output) in REPLACED.items():
         _bridge(group, role, former_output, node, output)
-    for row in of_role(group, "row"):
-        group.links.new(row.outputs[0], node.inputs["Day"])
+    for day in of_role(group, "day"):
+        group.links.new(day.outputs["Fac"], node.inputs["Day"])
+    for days in of_role(node.node_tree, several_nodes.DAYS):
+        copy_place(rows, days, changes)
     return _replaced(group, made, changes)
 
 
@@ -178,7 +182,8 @@ def _names(tree: bpy.types.NodeTree | None) -> list[str]:
 
 def _links(start: str = "") -> list[Link]:
     """What `REPLACED` leads to in a group, from a node or as without it."""
-    led = [("states", "Color", "peel", "State"), *LINKS]
+    of_peeling = ("states", "Color", "peel", "State"), ("share", "Value", "peel_place", "X")
+    led: list[Link] = [*of_peeling, *LINKS]
     return [
         (start or role, output if start else own, *end)
         for output, (role, own) in REPLACED.items()

@@ -13,11 +13,14 @@ import bpy
 from . import mask_nodes
 from .changes import Changes
 from .mask_nodes import ShownMask
-from .plan import ROLE_KEY
+from .plan import ROLE_PREFIX
 
 ATTRIBUTES_KEY = "skin_tan_basis"
 """Custom property of our groups of nodes, and in earlier versions of a mesh: the attributes that
 Apply made for several masks, as JSON."""
+
+DAYS = "basis_days"
+"""Role of the node that shows where days lie among the rows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +180,9 @@ class _Tree:
         socket = self.tree.interface.new_socket
         socket("Day", in_out="INPUT", socket_type="NodeSocketFloat")
         given = self.node("NodeGroupInput", "")
-        place = self.parts(self.image(basis.days, "Rows of days", given.outputs[0]), self.at)[1]
+        days = self.image(basis.days, "Rows of days", given.outputs[0])
+        days.node.name = ROLE_PREFIX + DAYS
+        place = self.parts(days, self.at)[1]
         rows, step = basis.rows.size[1], float(basis.step)
         count = rows - basis.parts + 1
         passed = self.math("MULTIPLY_ADD", "Parts passed", place, count / step, -0.5 / step)
@@ -204,7 +209,7 @@ class _Tree:
     def node(self, kind: str, label: str, at: tuple[int, int] | None = None) -> Any:
         node = self.tree.nodes.new(kind)
         self.at = at or (self.at[0] + 200, self.at[1] - 40)
-        node.label, node.location, node[ROLE_KEY] = label, self.at, "basis"
+        node.label, node.location = label, self.at
         return node
 
     def image(

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import nodes
-from .plan import ROLE_KEY
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ def put_in(group: Any, role: str, plan: StandIn) -> None:
     ends = [
         link.to_socket
         for link in start.links
-        if link.to_node != node and (not plan.but or link.to_node.get(ROLE_KEY) != plan.but)
+        if link.to_node != node and (not plan.but or nodes.role_of(link.to_node) != plan.but)
     ]
     for end in ends:
         group.links.new(nodes.find_output(node, plan.gives), end)

@@ -13,6 +13,7 @@ from hylios.errors import InputError
 from . import nodes, recolour, slots, stand_ins
 from .changes import Changes
 from .ownership import is_local
+from .places import copy_place
 from .plan import Link, Role
 from .stand_ins import StandIn
 
@@ -58,8 +59,6 @@ ROLES = {
     "view_tint": Role("ShaderNodeRGB", "Tint of the gloss", (1400, 950)),
 }
 LINKS: tuple[Link, ...] = (
-    ("look_place", "Vector", "view_thin", "Vector"),
-    ("thick_place", "Vector", "view_thick", "Vector"),
     ("thickness", "Value", "view_mixed", "Factor_Float"),
     ("view_thin", "Color", "view_mixed", "A_Color"),
     ("view_thick", "Color", "view_mixed", "B_Color"),
@@ -69,8 +68,11 @@ LINKS: tuple[Link, ...] = (
 )
 
 
+SAMPLED_AS = {"view_thin": "colour", "view_thick": "thick_colour"}
+"""Roles of images of a band, and those whose place in the look is theirs."""
+
 STAND_INS = {
-    "view_colour": StandIn("mixed_colour", "Result_Color", "A_Color", "Result_Color", "ratio"),
+    "view_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color", "ratio"),
     "view_near": StandIn("near", "Color", 0, "Value"),
     "view_width": StandIn("width", "Color", 0, "Value"),
     "view_angle": StandIn("slope", "Vector", 0, "Vector"),
@@ -155,6 +157,8 @@ def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None
     if lacking:
         changes.may_add_to(group.nodes)
         nodes.complete(group, lacking, ROLES, LINKS)
+    for role, sampled in SAMPLED_AS.items():
+        _sample_as(group, role, sampled, changes)
     for role, plan in STAND_INS.items():
         stand_ins.put_in(group, role, plan)
     for role, socket, value in (
@@ -194,6 +198,15 @@ def remove_unused_images(changes: Changes) -> None:
 
 def _unit_vector(channel: int) -> tuple[float, ...]:
     return tuple(float(channel == other) for other in range(3))
+
+
+def _sample_as(group: Any, role: str, sampled: str, changes: Changes) -> None:
+    """Have a node sample its image as one of the visible samples its own."""
+    for source in nodes.of_role(group, sampled):
+        for node in nodes.of_role(group, role):
+            copy_place(source, node, changes)
+            for former in source.inputs["Vector"].links:
+                group.links.new(former.from_socket, node.inputs["Vector"])
 
 
 def _take_out(group: Any) -> None:

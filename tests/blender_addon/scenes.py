@@ -6,7 +6,9 @@ import bpy
 import numpy as np
 import OpenImageIO
 
-OWN_IMAGES, LOOK_IMAGES = 2, 5
+from blender_addon.scene import nodes
+
+OWN_IMAGES, LOOK_IMAGES = 2, 2
 """Images that Apply makes for an object, and for a skin with all planes."""
 
 
@@ -29,7 +31,7 @@ def tan_groups() -> list:
 
 def of_role(obj, role: str):
     """The node of a role in an object's tan."""
-    (node,) = (node for node in tan_group(obj).nodes if node.get("skin_tan_role") == role)
+    (node,) = nodes.of_role(tan_group(obj), role)
     return node
 
 

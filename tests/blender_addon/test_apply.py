@@ -59,11 +59,8 @@ def test_images_are_packed_floats(body):
     assert spaces == {
         "Skin Tan States Body": "Non-Color",
         "Skin Tan Places Body": "Non-Color",
-        "Skin Tan Look Colour": "Linear Rec.709",
-        "Skin Tan Look Bend": "Non-Color",
-        "Skin Tan Look Bow": "Non-Color",
-        "Skin Tan Look Near share": "Non-Color",
-        "Skin Tan Look Far width": "Non-Color",
+        "Skin Tan Look Colours": "Linear Rec.709",
+        "Skin Tan Look Light": "Non-Color",
     }
     for image in bpy.data.images:
         assert image.is_float and image.packed_file is not None

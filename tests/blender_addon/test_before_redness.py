@@ -13,7 +13,7 @@ from scenes import apply, of_role, pixels, tan_object
 
 from blender_addon import live
 from blender_addon.applied import is_changed
-from blender_addon.scene import exr
+from blender_addon.scene import exr, nodes
 
 FILE = Path(__file__).parent / "data" / "before_redness.blend"
 
@@ -29,9 +29,11 @@ ROOTS = np.linspace(0.2, 2.0, 40)
 
 def look(obj) -> np.ndarray:
     """The colours that an object's tan shows at these; how far its image reaches is the table's."""
-    image, column = (of_role(obj, role) for role in ("colour", "look_column"))
-    values = pixels(image.image)
-    scale, shift = (column.inputs[number].default_value for number in (1, 2))
+    node = of_role(obj, "colour")
+    values = np.split(pixels(node.image), 2)[0]  # of thin skin
+    scale, shift = node.texture_mapping.scale[0], node.texture_mapping.translation[0]
+    for column in nodes.of_role(obj.skin_tan.group, "look_column"):
+        scale, shift = (column.inputs[number].default_value for number in (1, 2))
     places = (scale * ROOTS + shift) * values.shape[1] - 0.5
     columns = np.arange(values.shape[1])
     return np.array(

@@ -92,8 +92,8 @@ def settled() -> None:
     values = obj.skin_tan.values()
     history, look = history_of(values), look_of(values)
     _require_shown(obj, "states", history.coordinates)
-    _require_shown(obj, "rows", history.places)
-    _require_shown(obj, "colour", look.colour)
+    _require_shown(obj, "rows", history.lines)
+    _require_shown(obj, "colour", look.colours)
     assert own_colour.is_shown(obj.skin_tan.group) == obj.skin_tan.own_colour
     if obj.skin_tan.own_colour:
         _require_shown(obj, "own_image", offsets(look))

@@ -7,9 +7,6 @@ from scenes import apply, tan_object
 
 MEGABYTE = 1e6
 
-RELIEF = 0.12
-"""Megabytes of the group of skin's relief, which a file holds once."""
-
 
 def saved(folder, *, compress: bool = False) -> int:
     path = folder / "saved.blend"
@@ -27,29 +24,21 @@ def sunny(table_path, days: float, exposures: int):
     return obj
 
 
-@pytest.mark.parametrize(("days", "exposures", "most"), [(30.0, 1, 0.4), (365.0, 20, 1.0)])
-def test_as_blender_5_saves_it_adds_less(table_path, tmp_path, days, exposures, most):
-    """Compressed, as its factory settings have it."""
-    obj = sunny(table_path, days, exposures)
-    before = saved(tmp_path, compress=True)
-    apply(obj)
-    assert (saved(tmp_path, compress=True) - before) / MEGABYTE < most / 2
-
-
 @pytest.mark.parametrize(
-    ("days", "exposures", "first", "further"),
-    [(30.0, 1, 0.485, 0.42), (30.0, 10, 0.535, 0.46), (365.0, 20, 0.735, 0.66)],
+    ("days", "exposures", "most", "further"), [(30.0, 1, 0.4, 0.3), (365.0, 20, 0.6, 0.5)]
 )
-def test_a_tan_adds_little_to_a_file(table_path, tmp_path, days, exposures, first, further):
-    """In megabytes, as measured: half of it are nodes, 3 kB and more for each.
+def test_a_tan_adds_little_to_a_file(table_path, tmp_path, days, exposures, most, further):
+    """In megabytes, as Blender 4.5 saves it: three quarters are nodes, 3 kB and more for each.
 
-    Another object of the same skin brings neither look nor relief of its own.
+    Another object of the same skin brings neither look nor relief of its own. Compressed, as
+    Blender 5 saves it by itself, a tan adds a quarter.
     """
     objects = [sunny(table_path, days, exposures) for _ in range(2)]
-    sizes = [saved(tmp_path)]
+    sizes, packed = [saved(tmp_path)], [saved(tmp_path, compress=True)]
     for obj in objects:
         apply(obj)
         sizes.append(saved(tmp_path))
+        packed.append(saved(tmp_path, compress=True))
     added = np.diff(sizes) / MEGABYTE
-    assert added[0] < first + RELIEF
-    assert added[1] < further
+    assert added[0] < most and added[1] < further
+    assert np.diff(packed)[0] / MEGABYTE < most / 2

@@ -36,7 +36,7 @@ def test_sliders_show_and_defaults_give_the_skin_back(body):
     before = shown(body).copy()
     body.skin_tan.biology.blood = 2.0
     assert apply(body) == {"FINISHED"}
-    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colour))
+    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colours))
     # redder: less green beside red, wherever there is little melanin
     left = slice(0, 40)
     assert np.all(shown(body)[0, left, 1] < before[0, left, 1])
@@ -55,7 +55,7 @@ def test_dragging_shows_at_once_and_rests_exact(body):
     live.make_exact()
     assert not applied.is_changed(body, scene)
     np.testing.assert_allclose(roughly, shown(body), atol=0.02)
-    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colour))
+    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colours))
 
 
 def test_a_drag_changes_pixels_in_place(body):
@@ -65,7 +65,7 @@ def test_a_drag_changes_pixels_in_place(body):
         live.show_changes()
         assert of_role(body, "colour").image == image
         expected = look_of(body.skin_tan.values(), rough=True)
-        np.testing.assert_array_equal(shown(body), rounded(expected.colour))
+        np.testing.assert_array_equal(shown(body), rounded(expected.colours))
     live.make_exact()
     assert not applied.is_changed(body, scene)
 
@@ -89,7 +89,7 @@ def test_biology_back_and_another_schedule(body):
     live.show_changes()
     body.skin_tan.biology.blood, body.skin_tan.exposures[0].dose = 1.0, 3.0
     live.make_exact()
-    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colour))
+    np.testing.assert_array_equal(shown(body), rounded(look_of(body.skin_tan.values()).colours))
 
 
 def test_a_drag_leaves_other_skins(body):
@@ -126,7 +126,7 @@ def test_undo_brings_the_look_back(body, rests):
     assert bpy.data.objects[name].skin_tan.biology.blood == 2.0
     live.make_exact()
     obj = bpy.data.objects[name]
-    np.testing.assert_array_equal(shown(obj), rounded(look_of(obj.skin_tan.values()).colour))
+    np.testing.assert_array_equal(shown(obj), rounded(look_of(obj.skin_tan.values()).colours))
 
 
 def test_skins_of_one_biology_share_their_images(body):

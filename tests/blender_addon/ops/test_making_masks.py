@@ -14,6 +14,7 @@ from blender_addon.props import settings_of
 from blender_addon.scene import clothes
 from blender_addon.scene.mask_values import mask_values
 from blender_addon.scene.masks import Mask
+from blender_addon.scene.nodes import role_of
 
 RADIUS, BAND_RADIUS, HALF_BAND = 0.1, 0.105, 0.03
 """Of a sphere and of a band around it, in metres."""
@@ -353,5 +354,5 @@ def test_a_new_mask_shows_on_a_tan_that_is_there(table_path):
     settings.exposures.add()
     apply(body)
     bpy.ops.skin_tan.paint_mask()
-    (node,) = (node for node in settings.group.nodes if node.get("skin_tan_role") == "mask")
+    (node,) = (node for node in settings.group.nodes if role_of(node) == "mask")
     assert node.attribute_name == "Sun Mask"

@@ -9,6 +9,7 @@ from test_changes import inventory
 from blender_addon.model.catalogue import shipped_path
 from blender_addon.model.film import film_of
 from blender_addon.model.views import VIEWS
+from blender_addon.scene.nodes import role_of
 from hylios.tissue.liquids import LIQUIDS
 
 
@@ -60,6 +61,6 @@ def test_back_without_a_trace(body):
     before = inventory()
     for view in VIEWS:
         bpy.ops.skin_tan.switch_view(view=view)
-    assert any(node.get("skin_tan_role") == "view_film" for node in tan_group(body).nodes)
+    assert any(role_of(node) == "view_film" for node in tan_group(body).nodes)
     bpy.ops.skin_tan.switch_view(view="VISIBLE")
     assert inventory() == before

@@ -14,6 +14,7 @@ from blender_addon.model.layer import let_through
 from blender_addon.model.look import NORMAL_ANGLE
 from blender_addon.scene import images
 from blender_addon.scene.film import ROLES
+from blender_addon.scene.nodes import role_of
 from blender_addon.scene.plan import INDEX
 from hylios.errors import InputError
 from hylios.tissue.liquids import LIQUIDS
@@ -41,7 +42,7 @@ def shown(folder, samples: int = 32) -> np.ndarray:
 
 
 def film_nodes(obj) -> list:
-    return [node for node in tan_group(obj).nodes if node.get("skin_tan_role") in ROLES]
+    return [node for node in tan_group(obj).nodes if role_of(node) in ROLES]
 
 
 def group_node(obj):

@@ -13,7 +13,7 @@ import pytest
 from scenes import add_camera, apply, look, of_role, render, white_world
 
 from blender_addon.scene import plan
-from blender_addon.scene.nodes import find_input
+from blender_addon.scene.nodes import find_input, role_of
 from hylios.lab.colour import difference
 
 FILE = Path(__file__).parents[1] / "data" / "layout_1.blend"
@@ -83,7 +83,7 @@ def test_what_the_artist_did_is_kept(body):
         assert find_input(shader, "IOR").default_value == pytest.approx(1.5526)
     # a coat lies over near light too, which a diffuse shader can't have
     assert of_role(body, "two_lobes").inputs[1].default_value == -1.0
-    assert {node.get(plan.ROLE_KEY) for node in group.nodes} == {*plan.ROLES, None}
+    assert {role_of(node) for node in group.nodes} == {*plan.ROLES, None}
 
 
 def test_a_shader_as_it_was_made_has_one_gloss_without_oil(body):
@@ -124,7 +124,7 @@ def test_a_shader_of_the_artist_s_own_is_left_alone(body, capfd):
     apply(twin)
     assert own.inputs["Color"].links[0].from_node == of_role(twin, "mixed_colour")
     assert of_role(twin, "output").inputs["Surface"].links[0].from_node == own
-    assert not {node.get(plan.ROLE_KEY) for node in group.nodes} & plan.SHADERS
+    assert not {role_of(node) for node in group.nodes} & plan.SHADERS
     assert "subsurface scattering is left to the shader in its place" in capfd.readouterr().out
 
 

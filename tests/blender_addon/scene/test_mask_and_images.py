@@ -15,14 +15,16 @@ def body(table_path):
 def test_without_and_with_a_mask(body):
     """Adding one and taking it away again, in the nodes that are there."""
     count = len(body.skin_tan.group.nodes)
-    share = of_role(body, "share").inputs[1]
-    assert share.default_value == 1.0
+    share = of_role(body, "share").inputs
+    assert [end.default_value for end in share[1:]] == [0.0, 1.0]
     add_mask(body, np.zeros(4))
     apply(body)
-    assert of_role(body, "mask").attribute_name == "sun" and share.default_value == 0.0
+    assert of_role(body, "mask").attribute_name == "sun"
+    assert [end.default_value for end in share[1:]] == [1.0, 0.0]
     body.skin_tan.mask_attribute = ""
     apply(body)
-    assert of_role(body, "mask").attribute_name == "" and share.default_value == 1.0
+    assert of_role(body, "mask").attribute_name == ""
+    assert [end.default_value for end in share[1:]] == [0.0, 1.0]
     assert len(body.skin_tan.group.nodes) == count
 
 
@@ -35,11 +37,11 @@ def test_images_are_those_of_the_model(body, table_path):
     history, look = expected.history, expected.look
     for role, values in (
         ("states", history.coordinates),
-        ("columns", history.places),
-        ("rows", history.places),
-        ("colour", look.colour),
-        ("thick_colour", look.colour),
-        ("bend", look.bend),
-        ("width", look.far),
+        ("columns", history.lines),
+        ("rows", history.lines),
+        ("colour", look.colours),
+        ("thick_colour", look.colours),
+        ("bend", look.light),
+        ("let_through", look.light),
     ):
         assert np.array_equal(pixels(of_role(body, role).image)[..., :3], rounded(values))

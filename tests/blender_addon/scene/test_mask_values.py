@@ -92,7 +92,7 @@ def test_no_points_and_no_faces(body):
     [
         ([0, 0, 0, 0], "By the mask 'shade' the whole body is covered, so nothing tans."),
         ([1, 1, 1, 1], "By the mask 'shade' the whole body is bare."),
-        ([np.nan, 0, 1, np.inf], "8 of 16 points of the mask 'shade' have no valid value"),
+        ([np.nan, 0, 1, np.inf], "4 of 16 points of the mask 'shade' have no valid value"),
         ([-2, 0, 1, 1.7], "holds numbers from -2 to 1.7; they are cut to 0 to 1."),
         ([0, 0, 1, 1], None),
     ],

@@ -221,7 +221,7 @@ def test_no_number_counts_as_0_and_others_are_cut(body, tmp_path, invert):
     mask = body.skin_tan.mask
     mask.source, mask.strength, mask.invert = "shade", 0.5, invert
     apply(body)
-    expected = np.array([0.5, 0.5, 1.0, 0.5])
+    expected = np.array([0.5, 0.5, 1.0, 1.0])
     assert rendered(body, tmp_path) == pytest.approx(1.5 - expected if invert else expected)
 
 
@@ -239,7 +239,7 @@ def test_another_mask_leaves_the_skin_of_others(body, tmp_path):
     group.links.new(number.outputs[0], of_role(body, "share").inputs[0])
     body.skin_tan.mask.strength = 0.9
     assert of_role(body, "mask").attribute_name == "shade"
-    assert rendered(body, tmp_path) == pytest.approx(0.7)
+    assert rendered(body, tmp_path) == pytest.approx(0.1 + 0.9 * 0.7)
 
 
 def test_the_name_of_version_0_1_0_is_the_source(body):

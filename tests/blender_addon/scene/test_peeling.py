@@ -25,6 +25,7 @@ from blender_addon.model.tan import peeling_of
 from blender_addon.props import settings_of
 from blender_addon.scene import peeling
 from blender_addon.scene.exr import rounded
+from blender_addon.scene.nodes import role_of
 
 DAY, SHARES = 12, (0.2, 0.8, 1.0)
 
@@ -109,7 +110,7 @@ def test_every_mask_peels_by_its_own_doses(tmp_path, table_path):
     assert seen == pytest.approx(told[columns], abs=0.01)
     more.own_mask = False
     apply(obj)
-    assert not [node for node in tree.nodes if node.get("skin_tan_role") == "peel_masks"]
+    assert not [node for node in tree.nodes if role_of(node) == "peel_masks"]
     assert of_role(obj, "peel").inputs["Peeling"].links[0].from_node == of_role(obj, "peel_image")
 
 

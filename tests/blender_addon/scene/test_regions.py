@@ -12,7 +12,7 @@ from test_recolour import base_colours
 import hylios
 from blender_addon.model.regions import shown, spots
 from blender_addon.props import settings_of
-from blender_addon.scene.nodes import find_input
+from blender_addon.scene.nodes import find_input, role_of
 from blender_addon.scene.region_nodes import PLACE
 from blender_addon.scene.regions import LATER, OF_LATER, ROLES
 from hylios.errors import InputError
@@ -180,7 +180,7 @@ def test_without_regions_nothing_is_left_of_them(table_path):
     add_region(obj, "lips")  # without a mask it is nowhere
     assert apply(obj) == {"FINISHED"}
     before = state()
-    assert not any(node.get("skin_tan_role") in ROLES for node in tan_group(obj).nodes)
+    assert not any(role_of(node) in ROLES for node in tan_group(obj).nodes)
     region = add_region(obj, "freckles")
     assert apply(obj) == {"FINISHED"}
     assert of_role(obj, "regions")
@@ -260,7 +260,7 @@ def test_a_copy_of_the_object_gets_regions_of_its_own(table_path):
     apply(other)
     trees = [of_role(item, "regions").node_tree for item in (obj, other)]
     assert trees[0] != trees[1]
-    sizes = [next(n for n in tree.nodes if n.get("skin_tan_role") == PLACE) for tree in trees]
+    sizes = [next(n for n in tree.nodes if role_of(n) == PLACE) for tree in trees]
     first, second = (np.array(node.inputs[1].default_value) for node in sizes)
     assert second == pytest.approx(2.0 * first)
 

@@ -13,6 +13,7 @@ from scenes import add_mask, apply, of_role, tan_group, tan_object
 
 from blender_addon import applied, live, timers
 from blender_addon.scene import masks
+from blender_addon.scene.nodes import role_of
 
 SHARES = np.array(
     [
@@ -95,7 +96,7 @@ def test_one_mask_again_takes_the_nodes_out(body, tmp_path):
     group = tan_group(body)
     assert len(group.nodes) == node_count
     link = of_role(body, "state").inputs[0].links[0]
-    assert link.from_node["skin_tan_role"] == states["skin_tan_role"]
+    assert role_of(link.from_node) == role_of(states)
     assert not [key for key in (*group.keys(), *body.data.keys()) if "basis" in key]
 
 
@@ -135,7 +136,7 @@ def test_what_an_earlier_version_wrote_onto_the_mesh_goes(body):
     name = "skin_tan_basis_0"
     apply(body)
     body.data.attributes.new(name, "FLOAT_COLOR", "POINT")
-    node = next(node for node in tan_group(body).nodes if node.get("skin_tan_role") == "basis")
+    node = next(node for node in tan_group(body).nodes if role_of(node) == "basis")
     node.node_tree["skin_tan_basis"] = body.data["skin_tan_basis"] = json.dumps([name])
     twin = body.copy()
     bpy.context.collection.objects.link(twin)

@@ -9,6 +9,8 @@ from scenes import add_camera, of_role, render, tan_group, tan_object, white_wor
 from synthetic import ROUGHNESS, UNTANNED_COLOUR
 
 from blender_addon.model.catalogue import shipped_path
+from blender_addon.scene import layout_2
+from blender_addon.scene.changes import Changes
 from hylios.lab.colour import difference
 from hylios.table import melanin_dynamics, minimal_doses, read_table
 from hylios.tanning import PIGMENTATIONS, Exposures, simulate, states_at
@@ -255,6 +257,8 @@ def test_the_share_of_thick_skin_bulges_in_a_group_of_an_earlier_version_too():
     former = of_role(obj, "thickness_slope")
     slope, start = (former.inputs[number].default_value for number in (1, 2))
     tan_group(obj).nodes.remove(former)
+    with Changes() as changes:
+        layout_2.complete_thickness(tan_group(obj), changes)
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     node, end = of_role(obj, "thickness_slope"), of_role(obj, "thickness")
     assert end.inputs[1].links[0].from_node == node

@@ -16,6 +16,7 @@ from blender_addon.model.layer import let_through
 from blender_addon.model.views import VIEWS
 from blender_addon.scene import changes as changes_module
 from blender_addon.scene import recolour
+from blender_addon.scene.nodes import role_of
 from hylios.errors import InputError
 from hylios.table import melanin_dynamics, minimal_doses, read_table
 from hylios.tanning import Exposures, simulate
@@ -264,7 +265,7 @@ def test_skin_that_cannot_show_a_view_stays_visible(
         moved.unlink()
     if trouble == "removed":
         group = tan_group(obj)
-        group.nodes.remove(next(n for n in group.nodes if n.get("skin_tan_role") == "mixed_colour"))
+        group.nodes.remove(next(n for n in group.nodes if role_of(n) == "mixed_colour"))
     before = contents(tan_group(obj))
     said = switching.switch_view("NM365")
     assert said.startswith("365 nm is shown on 'Body', 'Neighbour'. The visible stays on 'Odd': ")

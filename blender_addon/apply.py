@@ -16,6 +16,7 @@ from .model.regions import spots
 from .model.response import holds_redness, tells_skin
 from .model.settings import TanSettings
 from .model.size import lines_on
+from .model.summary import of_blisters
 from .model.tan import Tan, tan_of
 from .props import SkinTanExposure, SkinTanSettings, settings_of
 from .props.region import is_on, is_shown
@@ -248,9 +249,7 @@ def _require_masks(obj: bpy.types.Object) -> None:
     """Raise InputError unless all masks of an object can be used."""
     settings = settings_of(obj)
     settings.name_masks()
-    of_regions = (masks.Mask.of(region.mask) for region in settings.shown_regions())
-    others = settings.shown_mask(), settings.worn_film_mask()
-    for mask in {*settings.masks(), *others, *of_regions}:
+    for mask in settings.all_masks():
         masks.require_usable(obj, mask)
 
 
@@ -343,7 +342,8 @@ def _on_dose(obj: bpy.types.Object, values: TanSettings) -> list[str]:
     if not values.exposures:
         return [f"All times in the sun of {obj.name!r} are switched off, so nothing tans."]
     seen = [] if is_seen(curve_of(values)) else [timing.NOT_SEEN]
-    return [*seen, *_on_own_masks(settings_of(obj))]
+    blisters = [" ".join(lines) + "." for lines in [of_blisters(values)] if lines]
+    return [*seen, *blisters, *_on_own_masks(settings_of(obj))]
 
 
 def _on_regions(settings: SkinTanSettings) -> list[str]:

@@ -95,7 +95,8 @@ GERMAN = {
     "Hours": "Stunden",
     "Day": "Tag",
     "Month": "Monat",
-    "Latitude": "Breite",
+    "Day of Month": "Tag im Monat",
+    "Latitude (°)": "Breite (°)",
     "Altitude (m)": "Höhe (m)",
     "Clouds": "Wolken",
     "Ground": "Boden",
@@ -110,8 +111,8 @@ GERMAN = {
     "Car Window": "Autofenster",
     "Windscreen": "Windschutz",
     "Depth (m)": "Tiefe (m)",
-    "From": "Von",
-    "To": "Bis",
+    "From (h)": "Von (h)",
+    "To (h)": "Bis (h)",
     "Sunscreen": "Sonnencreme",
     "SPF": "LSF",
     "Own Mask": "Eigene Maske",
@@ -157,18 +158,20 @@ GERMAN = {
     "tans like {tanning:.3g} SED": "bräunt wie {tanning:.3g} SED",
     "No time is given as Sun:": "Keine Zeit als Sonne angegeben:",
     "its UVA is not known": "ihr UVA ist unbekannt",
+    "Orange: lightness, red: redness": "Orange: Helligkeit, rot: Röte",
+    "Apply Tan cannot show it:": "Anwenden geht nicht:",
     "No tan that can be seen": "Keine sichtbare Bräune",
     "Darkest on day {darkest:.0f},": "Am dunkelsten an Tag {darkest:.0f},",
     "gone by day {gone:.0f}": "weg bis Tag {gone:.0f}",
-    "Peels on days {first:.0f} to {last:.0f}": "Schält sich an Tag {first:.0f} bis {last:.0f}",
+    "Peels on days {first:.0f}-{last:.0f}": "Schält sich an Tag {first:.0f}-{last:.0f}",
     "Burns too little to peel": "Brennt zu wenig zum Schälen",
     "Burnt on day {day:.0f}": "Verbrannt an Tag {day:.0f}",
-    "Burnt on days {first:.0f} to {last:.0f}": "Verbrannt an Tag {first:.0f} bis {last:.0f}",
+    "Burnt on days {first:.0f}-{last:.0f}": "Verbrannt an Tag {first:.0f}-{last:.0f}",
     "Burnt on days {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}": (
         "Verbrannt Tag {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}"
     ),
-    "Burnt {count} times, days {first:.0f} to {last:.0f}": (
-        "{count} mal verbrannt, Tag {first:.0f} bis {last:.0f}"
+    "Burnt {count} times, days {first:.0f}-{last:.0f}": (
+        "{count} mal verbrannt, Tag {first:.0f}-{last:.0f}"
     ),
     "Above 4 burn doses on day {day:.0f}:": "Über 4 Rötungsdosen an Tag {day:.0f}:",
     "blisters in life; not shown": "im Leben Blasen; nicht gezeigt",

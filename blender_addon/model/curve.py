@@ -169,6 +169,11 @@ def is_seen(curve: Curve) -> bool:
     return bool(curve.untanned - curve.lightness[curve.darkest] >= PLAIN)
 
 
+def shows_redness(curve: Curve) -> bool:
+    """Whether the picture has a line of redness."""
+    return bool(curve.redness.max() >= PLAIN)
+
+
 def words(curve: Curve) -> tuple[str, ...]:
     """Short lines for an artist."""
     red = (*_red_words(curve), *_peeling_words(curve))
@@ -198,10 +203,10 @@ def _red_words(curve: Curve) -> tuple[str, ...]:
         return (Line("Burnt on days {first:.0f}-{until:.0f}, {again:.0f}-{last:.0f}", **days),)
     if len(burns) > 2:
         days = {"count": len(burns), "first": first, "last": last}
-        return (Line("Burnt {count} times, days {first:.0f} to {last:.0f}", **days),)
+        return (Line("Burnt {count} times, days {first:.0f}-{last:.0f}", **days),)
     if round(first) == round(last):
         return (Line("Burnt on day {day:.0f}", day=first),)
-    return (Line("Burnt on days {first:.0f} to {last:.0f}", first=first, last=last),)
+    return (Line("Burnt on days {first:.0f}-{last:.0f}", first=first, last=last),)
 
 
 def _peeling_words(curve: Curve) -> tuple[str, ...]:
@@ -211,7 +216,7 @@ def _peeling_words(curve: Curve) -> tuple[str, ...]:
     first, last = curve.peels
     if np.isnan(first):
         return (Line("Burns too little to peel"),)
-    return (Line("Peels on days {first:.0f} to {last:.0f}", first=first, last=last),)
+    return (Line("Peels on days {first:.0f}-{last:.0f}", first=first, last=last),)
 
 
 WIDTH, HEIGHT, STRIP = 240, 200, 36
@@ -227,8 +232,8 @@ GRID = np.array([0.5, 0.5, 0.5, 0.45])
 def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
     """The curve over its colours (HEIGHT, WIDTH, 4), sRGB from 0 to 1, the first row at the bottom.
 
-    Both lines leave that of skin without sun downwards: orange by how much darker skin is, in L*,
-    red by how much redder, in a*.
+    The orange line falls from that of skin without sun by how much darker skin is, in L*; the red
+    one rises from the lower edge by how much redder it is, in a*.
 
     Parameters
     ----------
@@ -247,10 +252,10 @@ def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
         column = (week - curve.days[0]) / (curve.days[-1] - curve.days[0]) * (WIDTH - 1)
         pixels[low:high, int(column)] = GRID
     rows = np.arange(HEIGHT)[:, None]
-    lines = [(RED_LINE, curve.redness)] if curve.redness.max() >= PLAIN else []
-    for colour, numbers in (*lines, (LINE, darkness)):
-        own = np.interp(columns, np.arange(len(curve.days)), numbers)
-        height = high - own / span * (high - low)
+    lines = [(RED_LINE, low, curve.redness / span)] if shows_redness(curve) else []
+    for colour, start, shares in (*lines, (LINE, high, -darkness / span)):
+        own = np.interp(columns, np.arange(len(curve.days)), shares)
+        height = start + own * (high - low)
         slope = np.hypot(1.0, np.gradient(height))
         covered = np.clip(1.8 - abs(rows - height) / slope, 0.0, 1.0)[..., None]
         pixels = pixels * (1.0 - covered) + colour * covered

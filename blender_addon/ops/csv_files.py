@@ -159,7 +159,7 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         max=12,
     )
     day_of_month: bpy.props.IntProperty(
-        name="Day",
+        name="Day of Month",
         description="First day, in an EPW file; UV indices count from their first day",
         default=USUAL_DATE[1],
         min=1,
@@ -174,7 +174,7 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         max=int(LAST_DAY_LIMIT),
     )
     from_hour: bpy.props.FloatProperty(
-        name="From",
+        name="From (h)",
         description="Start on every day, in hours of the file's clock, in an EPW file without "
         "daylight saving",
         default=USUAL_HOURS[0],
@@ -184,7 +184,7 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         precision=1,
     )
     to_hour: bpy.props.FloatProperty(
-        name="To",
+        name="To (h)",
         description="End on every day, in hours of the file's clock",
         default=USUAL_HOURS[1],
         min=0.0,

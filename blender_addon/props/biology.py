@@ -39,12 +39,14 @@ class SkinTanBiology(bpy.types.PropertyGroup):
     melanin: _slider(
         "melanin",
         "Melanin",
-        "How much melanin there is, as a multiple of the skin type's. Darker, and browner",
+        "How much melanin there is, as a multiple of the skin type's. Above 1 darker and "
+        "browner, below 1 paler",
     )
     blood: _slider(
         "blood",
         "Blood",
-        "How much blood there is in the skin, as a multiple of the skin type's. Redder",
+        "How much blood there is in the skin, as a multiple of the skin type's. Above 1 "
+        "redder, below 1 paler",
     )
     oxygenation: _slider(
         "oxygenation",

@@ -104,7 +104,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         precision=1,
     )
     latitude: FloatProperty(
-        name="Latitude",
+        name="Latitude (°)",
         description="Latitude of the place in degrees, negative south of the equator",
         default=40.0,
         min=-90.0,
@@ -116,10 +116,10 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         name="Month", description="Month of the year", default=USUAL_DATE[0], min=1, max=12
     )
     day_of_month: IntProperty(
-        name="Day", description="Day of the month", default=USUAL_DATE[1], min=1, max=31
+        name="Day of Month", description="Day of the month", default=USUAL_DATE[1], min=1, max=31
     )
     from_hour: FloatProperty(
-        name="From",
+        name="From (h)",
         description="Start, in hours of solar time: the sun stands highest at 12",
         default=USUAL_HOURS[0],
         min=0.0,
@@ -128,7 +128,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         precision=1,
     )
     to_hour: FloatProperty(
-        name="To",
+        name="To (h)",
         description="End, in hours of solar time: the sun stands highest at 12",
         default=USUAL_HOURS[1],
         min=0.0,

@@ -141,12 +141,14 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     peeling: BoolProperty(
         name="Peeling",
         description="Four to eight days after 3 burn doses and more, skin peels in patches with "
-        "loose edges, and loses most of its tan there; that heals in weeks. An estimate",
+        "loose edges, and loses most of its tan there, in dark skin little; that heals in weeks. "
+        "An estimate",
     )
     darkening: BoolProperty(
         name="UVA Darkening",
         description="Melanin that is there darkens at once in UVA, and pales over two days. Only "
-        "of times given as Sun, whose UVA is known. An estimate",
+        "of times given as Sun, whose UVA is known. Seen where frames lie hours apart, not days. "
+        "An estimate",
     )
     model_scale: FloatProperty(
         name="Model Scale",
@@ -354,6 +356,11 @@ class SkinTanSettings(bpy.types.PropertyGroup):
             for exposure in self.exposures
             if exposure.enabled
         )
+
+    def all_masks(self) -> set[Mask]:
+        """Those of all that shows: the sun, the film and the regions."""
+        of_regions = (Mask.of(region.mask) for region in self.shown_regions())
+        return {*self.masks(), self.shown_mask(), self.worn_film_mask(), *of_regions}
 
     def shown_mask(self) -> Mask:
         """The one mask of all exposures; where they have several, the object's."""

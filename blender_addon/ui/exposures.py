@@ -21,7 +21,8 @@ FIELDS = {
     "SUN": (
         ("latitude",),
         ("altitude",),
-        ("month", "day_of_month"),
+        ("month",),
+        ("day_of_month",),
         ("from_hour", "to_hour"),
         ("cloud",),
     ),

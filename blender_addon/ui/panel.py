@@ -1,13 +1,18 @@
 """The panels, from top to bottom: in the sidebar of the 3D view, and beside a material."""
 
+import textwrap
 from typing import Any, cast
 
 import bpy
 
+from hylios.errors import InputError
+
 from ..applied import is_changed, is_left_behind
 from ..model.lines import Line
+from ..model.summary import LINE
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
+from ..scene.masks import require_usable
 from ..scene.slots import has_tan
 from ..scene.timeline import shown_day
 from .biology import draw_biology
@@ -59,12 +64,26 @@ class _Main:
             return
         draw_curve(layout, settings)
         layout.prop(settings, "live")
-        if not settings.live and is_changed(obj, current_scene(context)):
-            layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
+        if is_changed(obj, current_scene(context)):
+            _draw_change(layout, obj)
         if is_left_behind(obj, current_scene(context)):
             draw_lines(layout, FRAMES_CHANGED, "INFO")
         draw_size(layout, obj, current_scene(context))
         layout.operator("skin_tan.remove", icon="X")
+
+
+def _draw_change(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """What waits for Apply, or why it would refuse."""
+    settings = settings_of(obj)
+    try:
+        for mask in settings.all_masks():
+            require_usable(obj, mask)
+    except InputError as error:
+        said = textwrap.wrap(str(error).split(";")[0], LINE)
+        draw_lines(layout, (Line("Apply Tan cannot show it:"), *said), "ERROR")
+        return
+    if not settings.live:
+        layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
 
 
 class _Section:

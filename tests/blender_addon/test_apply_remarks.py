@@ -122,3 +122,9 @@ def test_materials_that_geometry_nodes_set_are_told(body, capfd):
     setting.inputs["Material"].default_value = body.material_slots[0].material
     assert "geometry nodes" not in said_by_apply(body, capfd)
     assert "Updated" in said_by_apply(body, capfd) and len(bpy.data.materials) == 2
+
+
+def test_doses_that_blister_are_told(body, capfd):
+    body.skin_tan.exposures[0].dose = 100.0
+    said = said_by_apply(body, capfd)
+    assert "Above 4 burn doses on day 0: blisters in life; not shown." in said

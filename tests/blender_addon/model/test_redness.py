@@ -147,7 +147,7 @@ def test_the_curve_tells_redness_and_tan_apart():
     assert 4.0 < made.darkest_day < 8.0
     (burn,) = made.burns
     assert burn[0] < 0.5 and 2.0 < burn[1] < 8.0
-    assert curve.words(made)[0] == f"Burnt on days 0 to {burn[1]:.0f}"
+    assert curve.words(made)[0] == f"Burnt on days 0-{burn[1]:.0f}"
     assert "Burnt" not in " ".join(curve.words(without))
 
 
@@ -157,7 +157,7 @@ def test_the_curve_names_several_burns_and_none_of_dark_skin():
     until, last = made.burns[0][1], made.burns[1][1]
     assert curve.words(made)[0] == f"Burnt on days 0-{until:.0f}, 20-{last:.0f}"
     often = replace(SETTINGS, exposures=tuple(replace(SUN, day=day) for day in (0.0, 15.0, 40.0)))
-    assert curve.words(curve.curve_of(often))[0].startswith("Burnt 3 times, days 0 to 4")
+    assert curve.words(curve.curve_of(often))[0].startswith("Burnt 3 times, days 0-4")
     dark = replace(SETTINGS, table=catalogue.shipped_path("VI"))
     assert not curve.curve_of(dark).burns
 
@@ -179,6 +179,9 @@ def test_the_picture_has_a_red_line_where_skin_is_red():
         return int(np.all(np.abs(pixels - colour) < 0.02, axis=2).sum())
 
     assert drawn(curve.LINE) > 100 and drawn(curve.RED_LINE) > 20
+    red = np.abs(pixels - curve.RED_LINE.astype(np.float32)).sum(axis=2).argmin(axis=0)
+    reddest = made.redness.argmax() / (len(made.days) - 1) * (curve.WIDTH - 1)
+    assert red.max() == pytest.approx(red[int(reddest)], abs=3)  # rows count from below
     plain = curve.picture(curve.curve_of(replace(SETTINGS, redness=False)), made.colours)
     assert not np.all(np.abs(plain - curve.RED_LINE) < 0.02, axis=2).any()
 
@@ -194,7 +197,7 @@ def test_history_differs_by_kinetics_and_redness():
 def test_the_words_say_when_skin_peels():
     """By the model from day 4 to 8 after the burn, and loose edges a day more."""
     burnt = replace(SETTINGS, exposures=(replace(SUN, dose=5.0 * SKIN.med),), peeling=True)
-    assert curve.words(curve.curve_of(burnt))[1] == "Peels on days 4 to 9"
+    assert curve.words(curve.curve_of(burnt))[1] == "Peels on days 4-9"
     little = replace(burnt, exposures=(replace(SUN, dose=2.5 * SKIN.med),))
     assert curve.words(curve.curve_of(little))[1] == "Burns too little to peel"
     off = replace(burnt, peeling=False)

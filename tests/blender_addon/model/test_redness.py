@@ -8,7 +8,7 @@ from exposures import USUAL
 from sampled import coordinates, looked_up
 
 import hylios
-from blender_addon.model import basis, catalogue, curve, history, summary
+from blender_addon.model import catalogue, curve, history, summary
 from blender_addon.model.look import look
 from blender_addon.model.response import holds_redness, response_of
 from blender_addon.model.settings import TanSettings
@@ -82,35 +82,6 @@ def test_what_a_shader_shows_against_solving_the_skin(kinetics):
     error = ciede2000(lab(shown), lab(exact))
     assert error.mean() < 0.12
     assert error.max() < 0.25
-
-
-def test_a_basis_holds_blood_too():
-    random = np.random.default_rng(3)
-    shares = random.random((300, 2))
-    response = response_of(TABLE, "measured", True)
-    made, _ = basis.basis(
-        [of_sed(10, DOSES[0][1]), of_sed(130, DOSES[2][1])],
-        shares,
-        response.melanin,
-        first_day=0.0,
-        last_day=30.0,
-        erythema=response.erythema,
-        **MINIMAL,
-    )
-    hours = random.choice(SOON[SOON < 700], 300)
-    seen = basis.shown(made, made.coefficients, hours / 24.0)
-    for point in range(0, 300, 15):
-        states = whole_thickening(
-            states_at(
-                Exposures([10, 130], shares[point] * [DOSES[0][1], DOSES[2][1]]),
-                response.melanin,
-                times=[hours[point]],
-                erythema=response.erythema,
-                **MINIMAL,
-            )
-        )
-        expected = np.log([states[0, :3].sum(), *states[0, 3:]])
-        assert np.all(np.abs(seen[point] - expected) < [0.03, 0.05, 0.05])
 
 
 def test_a_table_without_blood_shows_no_redness(former_path):

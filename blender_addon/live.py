@@ -189,6 +189,7 @@ def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
     for role, image in (nodes.own_look(settings.group) or {}).items():
         values = offsets(look) if role == "own_image" else getattr(look, role)
         images.swap_pixels(image, values, content, pack=True)
+    nodes.set_bulge(settings.group, look.thickness, look.bulge)
 
 
 def _is_only_look_changed(obj: bpy.types.Object, text: str) -> bool:

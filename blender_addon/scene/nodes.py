@@ -108,6 +108,13 @@ def update(
     return replaced
 
 
+def set_bulge(group: bpy.types.NodeTree, thickness: tuple[float, float], bulge: float) -> None:
+    """Have a group look thick skin up as the look does whose pixels its images are given."""
+    for node in of_role(group, "thickness_slope"):
+        for number, value in _slope(thickness, bulge).items():
+            node.inputs[number].default_value = value
+
+
 def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
     """The images that were made for a group, as far as they are still in the file."""
     keys = (*IMAGE_KEYS.values(), *FORMER_KEYS)
@@ -297,12 +304,11 @@ OUT = "output"
 def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
     """The values that Apply owns, by roles and inputs."""
     low, high = (max(weight, 1e-6) for weight in (sampled.near_weight, 1.0 - sampled.near_weight))
-    span = sampled.thickness[1] - sampled.thickness[0]
     days = places.of_roles(sampled)["rows"]
     # Groups made before `two_lobes` have no link into the factor of `lobes` and `far_scaled`.
     return {
         "thickness": _between(sampled.thickness, 0.0, 1.0),
-        "thickness_slope": {1: -sampled.bulge / span**2, 2: (1.0 + sampled.bulge) / span},
+        "thickness_slope": _slope(sampled.thickness, sampled.bulge),
         "peel_row": {1: days.scale[0], 2: days.start[0]},
         **dict.fromkeys(("look_row", "region_row", "own_row"), _cut(sampled.blood)),
         "gain": {2: (sampled.level,) * 3},
@@ -313,6 +319,12 @@ def _values(sampled: Sampled) -> dict[str, dict[str | int, Any]]:
         "far_factor": {1: 1.0 / high - 1.0},
         "radius": {OUT: radius_of_millimetre(sampled.scene_unit)},
     }
+
+
+def _slope(thickness: tuple[float, float], bulge: float) -> dict[str | int, float]:
+    """Values of the node that has the share of thick skin bulge."""
+    span = thickness[1] - thickness[0]
+    return {1: -bulge / span**2, 2: (1.0 + bulge) / span}
 
 
 def _cut(ends: tuple[float, float]) -> dict[str | int, float]:

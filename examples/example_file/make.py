@@ -21,7 +21,7 @@ With it, look at the tab Tan of the sidebar (N). The body was in the sun twice: 
 swimsuit (Swimming), on day 9 in a shirt (Gardening, which has a mask of its own). Both masks come
 from the clothes in the collection Clothes by the button From Clothes: show them with their eyes
 in the outliner. Paint Mask takes up a brush on a mask; other doses and days show at once. Skin tans
-here as in the thesis, which shows more than a tan as measured in people: Skin > Tan.
+as measured in people; the thesis' tans are deeper: Skin > Tan.
 """
 
 
@@ -89,7 +89,7 @@ def make(subject: scene.Subject, out: Path) -> None:
         clothes.objects.link(sewn(body, garment))
     settings = body.skin_tan
     shot.frame_end, settings.last_day = LAST_FRAME, LAST_DAY
-    settings.skin, settings.kinetics = "IV", "THESIS"  # lines of two days that show from afar
+    settings.skin = "IV"  # lines of two days that show from afar
     for time, garment in zip(TIMES, worn, strict=True):
         bpy.ops.skin_tan.add_exposure(name=time.name, day=time.day)
         exposure = settings.exposures[-1]
@@ -102,6 +102,7 @@ def make(subject: scene.Subject, out: Path) -> None:
         cloth.hide_set(True)
     bpy.ops.skin_tan.apply()
     bpy.ops.skin_tan.go_to_darkest_day()
+    shot.cycles.samples, shot.cycles.use_denoising = 128, True
     bpy.data.texts.new("Read Me").write(README)
     look_through_camera()
     out.parent.mkdir(parents=True, exist_ok=True)

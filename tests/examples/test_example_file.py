@@ -15,6 +15,7 @@ def test_the_file_has_clothes_masks_and_keyed_days(tmp_path):
     blender_addon.register()
     try:
         make(replace(scene.suzanne(), levels=0), tmp_path / "made" / "example.blend")
+        assert bpy.data.objects["Suzanne"].skin_tan.kinetics == "MEASURED"
     finally:
         blender_addon.unregister()
     assert [file.name for file in (tmp_path / "made").iterdir()] == ["example.blend"]
@@ -25,6 +26,7 @@ def test_the_file_has_clothes_masks_and_keyed_days(tmp_path):
     ]
     assert all(len(cloth.data.polygons) for cloth in bpy.data.collections["Clothes"].objects)
     body, shot = bpy.data.objects["Suzanne"], bpy.context.scene
+    assert (shot.cycles.samples, shot.cycles.use_denoising) == (128, True)
     for name in ("Band Mask", "Scarf Mask"):
         shares = np.empty(4 * len(body.data.vertices), np.float32)
         body.data.attributes[name].data.foreach_get("color", shares)

@@ -32,6 +32,16 @@ def shown(obj) -> np.ndarray:
     return pixels(of_role(obj, "colour").image)[..., :3]
 
 
+def bulge(obj) -> float:
+    """That of the look whose pixels an object's images hold, as its nodes have it."""
+    by_square, by_one = (
+        of_role(obj, "thickness_slope").inputs[end].default_value for end in (1, 2)
+    )
+    low, high = look_of(obj.skin_tan.values()).thickness
+    assert by_one == pytest.approx((1.0 - by_square * (high - low) ** 2) / (high - low))
+    return -by_square * (high - low) ** 2
+
+
 def test_sliders_show_and_defaults_give_the_skin_back(body):
     before = shown(body).copy()
     body.skin_tan.biology.blood = 2.0
@@ -66,6 +76,7 @@ def test_a_drag_changes_pixels_in_place(body):
         assert of_role(body, "colour").image == image
         expected = look_of(body.skin_tan.values(), rough=True)
         np.testing.assert_array_equal(shown(body), rounded(expected.colours))
+        assert bulge(body) == pytest.approx(expected.bulge, abs=1e-5)
     live.make_exact()
     assert not applied.is_changed(body, scene)
 
@@ -76,12 +87,13 @@ def test_a_drag_that_ends_where_it_began_leaves_the_look(body, alone):
         other = tan_object(III)
         other.skin_tan.skin = "III"
         apply(other)
-    before = look(body)
+    before, bulged = look(body), bulge(body)
     for blood in (2.0, 1.0):
         body.skin_tan.biology.blood = blood
         live.show_changes()
     live.make_exact()
     assert look(body) == before and not live._stale(bpy.context.scene)
+    assert bulge(body) == bulged
 
 
 def test_biology_back_and_another_schedule(body):
@@ -109,7 +121,7 @@ def test_a_drag_leaves_other_skins(body):
 @pytest.mark.parametrize("rests", [False, True])
 def test_undo_brings_the_look_back(body, rests):
     bpy.ops.ed.undo_push(message="before")
-    name, before = body.name, look(body)
+    name, before, bulged = body.name, look(body), bulge(body)
     body.skin_tan.biology.blood = 2.0
     bpy.ops.ed.undo_push(message="blood")
     live.show_changes()
@@ -121,6 +133,7 @@ def test_undo_brings_the_look_back(body, rests):
         bpy.ops.ed.undo()
         live.after_undo()
     assert look(bpy.data.objects[name]) == before
+    assert bulge(bpy.data.objects[name]) == bulged
     bpy.ops.ed.redo()
     live.after_undo()
     assert bpy.data.objects[name].skin_tan.biology.blood == 2.0

@@ -176,7 +176,7 @@ def _near_far_planes(
     )
     error = request.settings.profile_error
     channels = [
-        fitted(walked, np.einsum("w,swb->sb", weights, light), wanted, error)
+        fitted(walked, np.einsum("w,swb->sb", weights, light), wanted, error, degree)
         for weights in request.lighting.weights(request.settings.profile_wavelengths)
     ]
     return {

@@ -33,13 +33,16 @@ eye sees how many times brighter, nearly, so the tail of a spread matters beyond
 RIDGE = 0.01
 """Weight of a polynomial's coefficients, for a spread of 1 that is off."""
 
-LEAST_WIDTH, LARGEST_WIDTH = 0.02, 6.0
-"""Limits in mm of what a polynomial makes of the width."""
+LEAST_WIDTHS, LARGEST_WIDTH = {2: 0.05, 3: 0.02}, 6.0
+"""Limits in mm of what a polynomial makes of the width, the least by its degree: where dark skin's
+light ends at once, a square makes more of its few states than they tell."""
 
 MOST_ERROR = 1.0
 """Largest error of the logarithm of the width that is told; beyond, the width says nothing."""
 
-SPREADS = np.linspace(np.log(NEAREST / LARGEST_WIDTH), np.log(FARTHEST / LEAST_WIDTH), 1500)
+SPREADS = np.linspace(
+    np.log(NEAREST / LARGEST_WIDTH), np.log(FARTHEST / min(LEAST_WIDTHS.values())), 1500
+)
 """Logarithms of x / d at which Burley's edge spread is tabulated."""
 
 
@@ -108,7 +111,11 @@ def terms(skin: Skin, axes: LookAxes, states: np.ndarray, degree: int = DEGREE) 
 
 
 def fitted(
-    walked: np.ndarray, light: np.ndarray, wanted: np.ndarray, error: float = 0.01
+    walked: np.ndarray,
+    light: np.ndarray,
+    wanted: np.ndarray,
+    error: float = 0.01,
+    degree: int = DEGREE,
 ) -> NearFar:
     """Near share and far width at wanted states, from the light of walked ones.
 
@@ -122,6 +129,8 @@ def fitted(
         `terms` of the states to tell.
     error : float
         Of the walks: light that is fainter than twice that does not count still more.
+    degree : int
+        Of the polynomials that `terms` are of.
     """
     from scipy.optimize import least_squares  # slow to import, as numba
 
@@ -138,7 +147,7 @@ def fitted(
 
     def shapes(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         far = _share(-walked @ parameters[:count])
-        width = np.log(_width(walked @ parameters[count:]))
+        width = np.log(_width(walked @ parameters[count:], degree))
         ratio = np.log(DISTANCES) - width[:, None]
         return far[:, None], np.interp(ratio, SPREADS, spreads), np.interp(ratio, SPREADS, slopes)
 
@@ -160,11 +169,17 @@ def fitted(
     with one_thread():
         start = np.zeros(2 * count)
         solution = least_squares(misfit, start, jac=slope, max_nfev=100)  # pyright: ignore
-        return _told(solution.x, solution.jac, float(np.sum(solution.fun**2)), len(walked), wanted)
+        misfits = float(np.sum(solution.fun**2))
+        return _told(solution.x, solution.jac, misfits, len(walked), wanted, degree)
 
 
 def _told(
-    parameters: np.ndarray, slope: np.ndarray, misfit: float, states: int, wanted: np.ndarray
+    parameters: np.ndarray,
+    slope: np.ndarray,
+    misfit: float,
+    states: int,
+    wanted: np.ndarray,
+    degree: int,
 ) -> NearFar:
     """What the parameters tell of wanted states, with errors by what the fit leaves over.
 
@@ -172,7 +187,7 @@ def _told(
     """
     count = wanted.shape[1]
     share = _share(wanted @ parameters[:count])
-    width = _width(wanted @ parameters[count:])
+    width = _width(wanted @ parameters[count:], degree)
     left = misfit / max(2 * states - 2 * count, 1)
     covariance = left * np.linalg.pinv(slope.T @ slope)
     errors = [
@@ -192,9 +207,9 @@ def _share(logit: np.ndarray) -> np.ndarray:
     return 1.0 / (1.0 + np.exp(-logit))
 
 
-def _width(logarithm: np.ndarray) -> np.ndarray:
+def _width(logarithm: np.ndarray, degree: int) -> np.ndarray:
     """Width in mm from its polynomial."""
-    return np.exp(np.clip(logarithm, np.log(LEAST_WIDTH), np.log(LARGEST_WIDTH)))
+    return np.exp(np.clip(logarithm, np.log(LEAST_WIDTHS[degree]), np.log(LARGEST_WIDTH)))
 
 
 def _melanin(specimen: Specimen) -> float:

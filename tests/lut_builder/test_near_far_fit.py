@@ -61,7 +61,7 @@ def test_many_walked_states_tell_what_a_cubic_holds(axes):
     )
     for degree in (2, 3):
         numbers = [terms(SKIN, axes, some, degree) for some in (walked, wanted)]
-        told = fitted(numbers[0], light(np.full(140, 0.4), widths[0]), numbers[1])
+        told = fitted(numbers[0], light(np.full(140, 0.4), widths[0]), numbers[1], degree=degree)
         off.append(np.abs(np.log(told.far_width / widths[1])).max())
     assert off[1] < 0.05 < off[0] / 2.0
 

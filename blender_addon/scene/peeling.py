@@ -128,8 +128,10 @@ def _mend(group: Any, changes: Changes) -> None:
     for node in dead:
         changes.set(node, "node_tree", peeling_nodes.shared_group())
     inner = next((own for own in (OF_SEVERAL, STAND_INS["peel"]) if _is_in(group, own)), None)
-    given = [("peel", "State", *end) for source, _, *end in TAN_LINKS if source == "states"]
-    taken = [] if inner is None else [(inner.role, inner.output, "peel", inner.input)]
+    given: list[Link] = [
+        ("peel", "State", end, taken) for source, _, end, taken in TAN_LINKS if source == "states"
+    ]
+    taken: list[Link] = [] if inner is None else [(inner.role, inner.output, "peel", inner.input)]
     nodes.link(group, ("peel",), [*OF_MASKS_LINKS, *LINKS, *given, *taken])
 
 

@@ -185,9 +185,9 @@ def _links(start: str = "") -> list[Link]:
     of_peeling = ("states", "Color", "peel", "State"), ("share", "Value", "peel_place", "X")
     led: list[Link] = [*of_peeling, *LINKS]
     return [
-        (start or role, output if start else own, *end)
+        (start or role, output if start else own, end, taken)
         for output, (role, own) in REPLACED.items()
-        for source, given, *end in led
+        for source, given, end, taken in led
         if (source, given) == (role, own)
     ]
 

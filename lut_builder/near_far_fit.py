@@ -9,6 +9,7 @@ from its neighbours.
 from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from math import comb
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from hylios.skin import Skin
 from hylios.skin.specimen import Specimen
 from hylios.table import LookAxes
 from hylios.threads import one_thread
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 DISTANCES = np.geomspace(NEAREST, FARTHEST, 40)
 """Distances in mm from the edge at which spreads are compared."""
@@ -130,7 +134,7 @@ def fitted(
     error : float
         Of the walks: light that is fainter than twice that does not count still more.
     degree : int
-        Of the polynomials that `terms` are of.
+        Of the `terms`.
     """
     from scipy.optimize import least_squares  # slow to import, as numba
 
@@ -169,26 +173,18 @@ def fitted(
     with one_thread():
         start = np.zeros(2 * count)
         solution = least_squares(misfit, start, jac=slope, max_nfev=100)  # pyright: ignore
-        misfits = float(np.sum(solution.fun**2))
-        return _told(solution.x, solution.jac, misfits, len(walked), wanted, degree)
+        return _told(solution, len(walked), wanted, degree)
 
 
-def _told(
-    parameters: np.ndarray,
-    slope: np.ndarray,
-    misfit: float,
-    states: int,
-    wanted: np.ndarray,
-    degree: int,
-) -> NearFar:
-    """What the parameters tell of wanted states, with errors by what the fit leaves over.
+def _told(solution: "OptimizeResult", states: int, wanted: np.ndarray, degree: int) -> NearFar:
+    """What the parameters found tell of wanted states, with errors by what the fit leaves over.
 
     A state's spread tells two numbers.
     """
-    count = wanted.shape[1]
+    count, parameters, slope = wanted.shape[1], solution.x, solution.jac
     share = _share(wanted @ parameters[:count])
     width = _width(wanted @ parameters[count:], degree)
-    left = misfit / max(2 * states - 2 * count, 1)
+    left = float(np.sum(solution.fun**2)) / max(2 * states - 2 * count, 1)
     covariance = left * np.linalg.pinv(slope.T @ slope)
     errors = [
         np.sqrt(np.maximum(np.einsum("nt,tu,nu->n", wanted, covariance[part, part], wanted), 0.0))

@@ -12,6 +12,7 @@ from scenes import add_camera, apply, of_role, render
 from test_layout_1 import labelled
 from test_shader import show_emission_of
 
+from blender_addon.model import catalogue
 from blender_addon.scene import layout_2, nodes, plan
 from blender_addon.scene.nodes import role_of
 from hylios.lab.colour import difference
@@ -22,7 +23,9 @@ FILE = Path(__file__).parents[1] / "data" / "layout_2.blend"
 @pytest.fixture
 def body():
     bpy.ops.wm.open_mainfile(filepath=str(FILE))
-    return bpy.data.objects["Body"]
+    obj = bpy.data.objects["Body"]
+    obj.skin_tan.table_path = str(catalogue.shipped_path("III"))
+    return obj
 
 
 def test_it_shows_what_it_did_after_apply(body, tmp_path):

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from exposures import USUAL
 from sampled import coordinates
+from test_basis import seen
 
-from blender_addon.model import basis, catalogue
+from blender_addon.model import catalogue
+from blender_addon.model.basis import basis
 from blender_addon.model.history import DRAG, FULL, history
 from blender_addon.model.settings import TanSettings
 from blender_addon.model.tan import history_of
@@ -62,14 +64,12 @@ def test_a_basis_darkens_too():
     random = np.random.default_rng(2)
     shares = random.random((200, 2))
     received = [joined(DAYS[:2]), joined([DAYS[2], of_sed(100, 6.0)])]
-    made, _ = basis.basis(
-        received, shares, MELANIN, first_day=0.0, last_day=20.0, darkens=True, **SKIN
-    )
+    made, _ = basis(received, MELANIN, first_day=0.0, last_day=20.0, darkens=True, **SKIN)
     hours = random.choice(np.r_[8:120, 240:330], 200)
     both = joined(received)
     which = np.repeat([0, 1], [own.hours.size for own in received])
-    seen = basis.shown(made, made.coefficients, hours / 24.0)[:, 0]
-    error = np.abs(seen - expected(both, shares[:, which], hours, both.uva))
+    told = seen(made, shares, hours / 24.0)[:, 0]
+    error = np.abs(told - expected(both, shares[:, which], hours, both.uva))
     assert error.mean() < 0.004 and error.max() < 0.045
 
 

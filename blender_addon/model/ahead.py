@@ -7,6 +7,9 @@ from typing import Any
 
 from hylios.errors import InputError
 
+THREAD = "Skin Tan ahead"
+"""Name of the thread."""
+
 
 class Ahead:
     """A function that keeps its results, called ahead in a thread, one call after the other.
@@ -29,7 +32,7 @@ class Ahead:
         if arguments == self._arguments:
             return True
         self._arguments = arguments
-        self._thread = Thread(target=self._call, args=arguments, daemon=True)
+        self._thread = Thread(target=self._call, args=arguments, name=THREAD, daemon=True)
         self._thread.start()
         return False
 

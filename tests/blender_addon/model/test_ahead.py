@@ -2,13 +2,13 @@
 
 import threading
 
-from blender_addon.model.ahead import Ahead
+from blender_addon.model.ahead import THREAD, Ahead
 from hylios.errors import InputError
 
 
 def until_done(ahead: Ahead, *arguments) -> None:
     for thread in threading.enumerate():
-        if thread is not threading.current_thread() and thread.daemon:
+        if thread.name == THREAD:
             thread.join(5.0)
     assert ahead.is_at_hand(*arguments)
 

@@ -12,6 +12,7 @@ from masked_body import rendered as pixels_of
 from scenes import add_mask, apply, of_role, tan_group, tan_object
 
 from blender_addon import applied, live, timers
+from blender_addon.model.ahead import THREAD
 from blender_addon.scene import masks
 from blender_addon.scene.nodes import role_of
 
@@ -157,7 +158,7 @@ def test_live_becomes_exact_without_a_wait(body, monkeypatch):
     assert live.make_exact() == live.AHEAD_SECONDS
     assert applied.is_changed(body, bpy.context.scene)
     for thread in threading.enumerate():
-        if thread.daemon:
+        if thread.name == THREAD:
             thread.join(10.0)
     assert live.make_exact() is None
     assert not applied.is_changed(body, bpy.context.scene)

@@ -15,7 +15,7 @@ from ..model.exposures_csv import ReadSchedule, exposures_text, read_exposures
 from ..model.schedule import csv_text
 from ..model.settings import LAST_DAY_LIMIT, USUAL_DATE, USUAL_HOURS
 from ..model.weather import weather_exposures
-from ..props import SkinTanSettings, settings_of
+from ..props import HOUR_OF_DAY, SkinTanSettings, settings_of
 from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
 from .reports import finished
 
@@ -178,19 +178,13 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         description="Start on every day, in hours of the file's clock, in an EPW file without "
         "daylight saving",
         default=USUAL_HOURS[0],
-        min=0.0,
-        max=24.0,
-        step=50,
-        precision=1,
+        **HOUR_OF_DAY,
     )
     to_hour: bpy.props.FloatProperty(
         name="To (h)",
         description="End on every day, in hours of the file's clock",
         default=USUAL_HOURS[1],
-        min=0.0,
-        max=24.0,
-        step=50,
-        precision=1,
+        **HOUR_OF_DAY,
     )
 
     def read(self, path: Path) -> ReadSchedule:

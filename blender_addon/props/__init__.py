@@ -2,7 +2,7 @@
 
 from .baked import baked
 from .biology import SkinTanBiology
-from .exposure import SkinTanExposure
+from .exposure import HOUR_OF_DAY, SkinTanExposure
 from .mask import SkinTanFilmMask, SkinTanMask
 from .material import SkinTanMaterial
 from .object import SkinTanSettings, settings_of
@@ -13,6 +13,7 @@ from .skins import table_file
 
 __all__ = [
     "CLASSES",
+    "HOUR_OF_DAY",
     "SkinTanBiology",
     "SkinTanExposure",
     "SkinTanFilmMask",

@@ -1,5 +1,7 @@
 """What an artist sets of one exposure: one time in the sun."""
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
@@ -40,6 +42,10 @@ THROUGH = (
     ("LAMINATED", "Windscreen", "Laminated glass: hardly any ultraviolet passes"),
     (WATER, "Water", "Water over the skin: a metre leaves about half of what burns"),
 )
+
+
+HOUR_OF_DAY: dict[str, Any] = {"min": 0.0, "max": 24.0, "step": 50, "precision": 1}
+"""Range and steps of a property that is an hour of the day."""
 
 
 class SkinTanExposure(bpy.types.PropertyGroup):
@@ -122,19 +128,13 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         name="From (h)",
         description="Start, in hours of solar time: the sun stands highest at 12",
         default=USUAL_HOURS[0],
-        min=0.0,
-        max=24.0,
-        step=50,
-        precision=1,
+        **HOUR_OF_DAY,
     )
     to_hour: FloatProperty(
         name="To (h)",
         description="End, in hours of solar time: the sun stands highest at 12",
         default=USUAL_HOURS[1],
-        min=0.0,
-        max=24.0,
-        step=50,
-        precision=1,
+        **HOUR_OF_DAY,
     )
     altitude: FloatProperty(
         name="Altitude (m)",

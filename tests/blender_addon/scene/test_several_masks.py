@@ -1,7 +1,7 @@
 """A mask for every exposure: what Apply makes of four, and takes away again."""
 
 import json
-import threading
+import time
 
 import bpy
 import numpy as np
@@ -12,7 +12,6 @@ from masked_body import rendered as pixels_of
 from scenes import add_mask, apply, of_role, tan_group, tan_object
 
 from blender_addon import applied, live, timers
-from blender_addon.model.ahead import THREAD
 from blender_addon.scene import masks
 from blender_addon.scene.nodes import role_of
 
@@ -157,8 +156,8 @@ def test_live_becomes_exact_without_a_wait(body, monkeypatch):
     live.show_changes()
     assert live.make_exact() == live.AHEAD_SECONDS
     assert applied.is_changed(body, bpy.context.scene)
-    for thread in threading.enumerate():
-        if thread.name == THREAD:
-            thread.join(10.0)
-    assert live.make_exact() is None
+    end = time.monotonic() + 10.0
+    while live.make_exact() is not None:
+        assert time.monotonic() < end
+        time.sleep(0.001)
     assert not applied.is_changed(body, bpy.context.scene)

@@ -20,7 +20,7 @@ from bpy.app.handlers import persistent
 from hylios.errors import InputError
 
 from . import applied, timers
-from .apply import apply_tan, tannable
+from .apply import apply_tan
 from .model.history import DRAG, FULL, Precision
 from .model.own_colour import offsets
 from .model.tan import history_of, look_of, peeling_of
@@ -28,6 +28,7 @@ from .props import settings_of
 from .scene import images, nodes, several
 from .scene.ownership import Users
 from .several import has_several, is_at_hand
+from .tannable import tannable
 
 REST_SECONDS = 0.3
 """After so long without a change, a tan is made exact."""

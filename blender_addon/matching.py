@@ -6,10 +6,10 @@ from numpy.typing import NDArray
 
 from hylios.errors import InputError
 
-from .apply import mesh_object
 from .model.matching import nearest
 from .own_colour import painted_skin
 from .props import SkinTanSettings
+from .tannable import mesh_object
 
 
 def match_colour(settings: SkinTanSettings, colour: NDArray, *, adjust: bool) -> str:

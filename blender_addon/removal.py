@@ -4,13 +4,14 @@ import bpy
 
 from hylios.errors import InputError
 
-from .apply import keep_response, tannable
+from .apply import keep_response
 from .props import settings_of
 from .scene.changes import Changes
 from .scene.day_removal import remove_day
 from .scene.removal import take_off
 from .scene.slots import has_tan
 from .scene.vertex_groups import remove_own
+from .tannable import tannable
 
 
 def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> str:

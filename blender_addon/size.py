@@ -5,13 +5,13 @@ import bpy
 from hylios.errors import require_range
 
 from . import applied
-from .apply import tannable
 from .model.settings import LARGEST_SCALE, LEAST_SCALE
 from .model.size import times_life_size
 from .props import settings_of
 from .scene import images, nodes, size
 from .scene.changes import Changes
 from .scene.ownership import names
+from .tannable import tannable
 
 
 def fit_size(obj: bpy.types.Object | None, scene: bpy.types.Scene, model_scale: float = 0.0) -> str:

@@ -9,11 +9,12 @@ from bpy.props import BoolProperty, EnumProperty
 from hylios.errors import InputError
 
 from .. import timing
-from ..apply import apply_tan, tannable
+from ..apply import apply_tan
 from ..model.fitting import nearest_type
 from ..own_colour import painted_skin
 from ..props import SkinTanSettings, settings_of
 from ..props.copying import copy_values, put_values, values_in
+from ..tannable import tannable
 from .active import (
     active_mesh,
     active_object,

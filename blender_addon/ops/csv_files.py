@@ -10,12 +10,12 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from hylios.errors import InputError, require_range
 from hylios.files import require_target, written_beside
 
-from ..apply import tannable
 from ..model.exposures_csv import ReadSchedule, exposures_text, read_exposures
 from ..model.schedule import csv_text
 from ..model.settings import LAST_DAY_LIMIT, USUAL_DATE, USUAL_HOURS
 from ..model.weather import weather_exposures
 from ..props import HOUR_OF_DAY, SkinTanSettings, settings_of
+from ..tannable import tannable
 from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
 from .reports import finished
 

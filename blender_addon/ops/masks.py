@@ -9,9 +9,9 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatPrope
 
 from hylios.errors import InputError
 
-from ..apply import kind_of, tannable
 from ..masking import ClothesRequest, from_clothes, mask_for_brush
 from ..props import SkinTanMask, SkinTanRegion, settings_of
+from ..tannable import kind_of, tannable
 from .active import active_object, current_scene, has_mesh, selected_objects
 
 STEP_SECONDS = 0.05

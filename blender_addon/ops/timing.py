@@ -3,7 +3,7 @@
 import bpy
 
 from .. import timing
-from ..apply import timeable
+from ..tannable import timeable
 from .active import active_object, current_scene, has_mesh
 from .reports import finished
 

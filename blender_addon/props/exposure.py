@@ -210,3 +210,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
         update=show_mask,
     )
     mask: PointerProperty(name="Mask", type=SkinTanMask)
+
+    def label(self, number: int) -> str:
+        """What sentences call it: its name, or its number in the list, from 1."""
+        return repr(self.name) if self.name else f"time in the sun {number}"

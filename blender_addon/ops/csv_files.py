@@ -17,6 +17,7 @@ from ..model.weather import weather_exposures
 from ..props import HOUR_OF_DAY, SkinTanSettings, settings_of
 from ..tannable import tannable
 from .active import active_mesh, active_object, active_settings, can_edit, has_mesh
+from .lists import clear
 from .reports import finished
 
 
@@ -108,16 +109,17 @@ class _Reads(ImportHelper):
         except InputError as error:
             cast(Any, self).report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        if self.replace:
-            settings.exposures.clear()
+        off = clear(settings.exposures) if self.replace else 0
         for values in read.exposures:
             exposure = settings.exposures.add()
             for name, value in values.items():
                 setattr(exposure, name, value)
             exposure.day += start
         settings.exposure_index = max(0, len(settings.exposures) - 1)
-        said = " ".join([f"Read times in the sun: {len(read.exposures)}.", *read.remarks])
-        cast(Any, self).report({"INFO"}, said)
+        said = [f"Read times in the sun: {len(read.exposures)}.", *read.remarks]
+        if off:
+            said.append(f"Turned off those of the character's own file: {off}.")
+        cast(Any, self).report({"INFO"}, " ".join(said))
         return {"FINISHED"}
 
     def read(self, path: Path) -> ReadSchedule:

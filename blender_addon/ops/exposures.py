@@ -11,7 +11,7 @@ from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
 from ..props.copying import copy_values
 from ..props.presets import OF_ONE_MESH
 from .active import active_settings, can_edit
-from .lists import SELECTED, after_removing, index_of
+from .lists import SELECTED, after_removing, index_of, move
 
 
 def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
@@ -113,13 +113,13 @@ class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
         settings = active_settings(context)
         try:
             source = index_of(settings.exposures, settings.exposure_index, self.index)
+            target = source + (-1 if self.direction == "UP" else 1)
+            if not 0 <= target < len(settings.exposures):
+                return {"CANCELLED"}
+            move(settings.exposures, source, target)
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        target = source + (-1 if self.direction == "UP" else 1)
-        if not 0 <= target < len(settings.exposures):
-            return {"CANCELLED"}
-        settings.exposures.move(source, target)
         settings.exposure_index = target
         return {"FINISHED"}
 

@@ -1,9 +1,17 @@
 """What an artist sets of one exposure: one time in the sun."""
 
+from itertools import count
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ..model.settings import (
     AIR,
@@ -48,7 +56,26 @@ HOUR_OF_DAY: dict[str, Any] = {"min": 0.0, "max": 24.0, "step": 50, "precision":
 """Range and steps of a property that is an hour of the day."""
 
 
+def tell_apart(exposure: Any, context: bpy.types.Context | None) -> None:
+    """On an override, number a name that is there twice: Blender tells members by their names.
+
+    Without it, what the second one says is lost when the file is read again.
+    """
+    obj = exposure.id_data
+    if obj.override_library is None or not exposure.name:
+        return
+    names = {other.name for other in obj.skin_tan.exposures if other != exposure}
+    if exposure.name in names:
+        stem = exposure.name
+        exposure.name = next(
+            name for number in count(1) if (name := f"{stem}.{number:03d}") not in names
+        )
+
+
 class SkinTanExposure(bpy.types.PropertyGroup):
+    name: StringProperty(
+        name="Name", description="What you call this time in the sun", update=tell_apart
+    )
     enabled: BoolProperty(
         name="On",
         description="Whether this time in the sun counts",
@@ -158,7 +185,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     ground: EnumProperty(
         name="Ground",
-        description="What lies around, for how much of the sun comes back from it",
+        description="What lies around: snow and sand throw much of the sun back",
         items=GROUNDS,
         default=USUAL_GROUND,
     )
@@ -170,8 +197,8 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     depth: FloatProperty(
         name="Depth (m)",
-        description="How much water is over the skin, in metres. An estimate: a clear sea lets "
-        "three times as deep",
+        description="How much water is over the skin, in metres. An estimate: in a clear sea "
+        "the sun goes three times as deep",
         default=1.0,
         min=0.0,
         soft_max=10.0,
@@ -206,7 +233,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     own_mask: BoolProperty(
         name="Own Mask",
-        description="Other cloth was worn this time: a mask for this time in the sun alone",
+        description="Other clothes were worn this time: a mask for this time in the sun alone",
         update=show_mask,
     )
     mask: PointerProperty(name="Mask", type=SkinTanMask)

@@ -9,6 +9,8 @@ HEADER = """import bpy
 obj = bpy.context.view_layer.objects.active
 if obj is None or obj.type != "MESH":
     raise RuntimeError("No mesh object is active; select the one that gets the preset.")
+if obj.library is not None:
+    raise RuntimeError(f"The object '{obj.name}' is linked from another file; make it local.")
 settings = obj.skin_tan
 
 """
@@ -35,6 +37,8 @@ def _lines(group: bpy.types.PropertyGroup, path: str, name: str) -> Iterator[str
     value, kind = getattr(group, name), group.bl_rna.properties[name].type
     if kind == "COLLECTION":
         yield f"{path}.{name}.clear()"
+        yield f"for item in {path}.{name}:  # on an override, those of the character's own file"
+        yield "    item.enabled = False"
         for item in value:
             yield f"item = {path}.{name}.add()"
             for inner in item.bl_rna.properties:

@@ -1,8 +1,12 @@
 """Library overrides: settings stay with the shot, and the shot keys its own days."""
 
+from pathlib import Path
+
 import bpy
 import pytest
 from scenes import apply, tan_object
+
+import blender_addon
 
 
 @pytest.fixture
@@ -60,3 +64,50 @@ def test_the_shot_keys_its_own_days(shot):
 def test_apply_says_that_an_override_keeps_its_look(shot):
     with pytest.raises(RuntimeError, match="is a library override"):
         bpy.ops.skin_tan.apply()
+
+
+def add(name, day, dose):
+    added = body().skin_tan.exposures.add()
+    added.name, added.day, added.dose = name, day, dose
+
+
+def listed():
+    return [(exposure.name, exposure.day, exposure.dose) for exposure in body().skin_tan.exposures]
+
+
+def test_times_of_one_name_survive_a_reload(shot):
+    for day, name in enumerate(("Boat", "Boat", "", "", "Boat"), start=4):
+        add(name, day, 2.0 * day)
+    before = listed()
+    assert [name for name, _, _ in before[1:]] == ["Boat", "Boat.001", "", "", "Boat.002"]
+    reopened(shot)
+    assert sorted(listed()) == sorted(before)  # Blender may change their order
+
+
+def test_times_of_the_characters_own_file_are_turned_off_not_removed(shot, tmp_path):
+    obj = body()
+    obj.skin_tan.regions.add()
+    bpy.ops.skin_tan.add_exposure(name="Boat", day=4.0, dose=5.0)
+    for refused in ("remove_exposure", "move_exposure"):
+        with pytest.raises(RuntimeError, match=r"^Error: Entry 1 of the list is that of the char"):
+            getattr(bpy.ops.skin_tan, refused)(
+                index=0, **({"direction": "DOWN"} if refused == "move_exposure" else {})
+            )
+    file = tmp_path / "days.csv"
+    file.write_text("day,SED\n2,3\n")
+    assert bpy.ops.skin_tan.import_exposures(filepath=str(file)) == {"FINISHED"}
+    exposures = obj.skin_tan.exposures
+    assert [(item.day, item.enabled) for item in exposures] == [(0.0, False), (2.0, True)]
+    assert bpy.ops.skin_tan.remove_exposure(index=1) == {"FINISHED"}
+    assert len(exposures) == 1
+
+
+def test_a_preset_turns_them_off_too_and_leaves_linked_data_alone(shot):
+    preset = str(next(Path(blender_addon.__file__).parent.glob("presets/skin_tan/*/Day_at*.py")))
+    bpy.ops.script.execute_preset(filepath=preset, menu_idname="SKIN_TAN_PT_schedule_presets")
+    assert [item.enabled for item in body().skin_tan.exposures] == [False, True]
+    linked = body().override_library.reference
+    bpy.context.view_layer.objects.active = linked
+    with pytest.raises(RuntimeError, match="linked from another file"):
+        bpy.ops.script.execute_preset(filepath=preset, menu_idname="SKIN_TAN_PT_schedule_presets")
+    assert [item.dose for item in linked.skin_tan.exposures] == [30.0]

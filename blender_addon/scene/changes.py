@@ -12,6 +12,8 @@ from typing import Any
 import bpy
 from mathutils import Color, Vector
 
+from .link_order import make_again, noted
+
 MADE = ("images", "materials", "node_groups", "actions")
 """Collections of `bpy.data` into which Apply puts new data-blocks."""
 
@@ -89,7 +91,7 @@ class Changes:
 
     def may_relink(self, tree: Any) -> None:
         """Restore the links of a node tree, whatever is linked from now on."""
-        self.on_failure(_restore_links, tree, _ends(tree))
+        self.on_failure(make_again, tree, noted(tree))
 
     def may_change_sockets(self, group: Any) -> None:
         """Restore the inputs and outputs of a node group, whatever is renamed or added."""
@@ -113,17 +115,3 @@ def _restore_sockets(interface: Any, former: dict[int, str]) -> None:
             item.name = former[item.as_pointer()]
         else:
             interface.remove(item)
-
-
-def _ends(tree: Any) -> list[tuple[Any, Any]]:
-    return [(link.from_socket, link.to_socket) for link in tree.links]
-
-
-def _restore_links(tree: Any, former: list[tuple[Any, Any]]) -> None:
-    for link in list(tree.links):
-        if (link.from_socket, link.to_socket) not in former:
-            tree.links.remove(link)
-    now = _ends(tree)
-    for ends in former:
-        if ends not in now:
-            tree.links.new(*ends)

@@ -8,6 +8,7 @@ from collections.abc import Container, Iterable
 from typing import Any
 
 from .changes import Changes
+from .link_order import NotedLink, make_again, noted
 from .nodes import find_input, find_output
 
 LINKS_KEY = "skin_tan_links"
@@ -63,12 +64,9 @@ def forget(tree: Any) -> None:
 
 def link_at(tree: Any, place: int, link: tuple[Any, Any, bool]) -> None:
     """Link two sockets; of the tree's links it gets the number that it had before."""
-    later = list(tree.links)[place:] if place >= 0 else []
-    ends = [(other.from_socket, other.to_socket, other.is_muted) for other in later]
-    for other in later:
-        tree.links.remove(other)
-    for start, end, is_muted in (link, *ends):
-        tree.links.new(start, end).is_muted = is_muted
+    linked = noted(tree)
+    linked.insert(place if place >= 0 else len(linked), NotedLink(*link))
+    make_again(tree, linked)
 
 
 def _stored(tree: Any) -> dict[str, dict[str, Any]]:

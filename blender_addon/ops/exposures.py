@@ -3,23 +3,13 @@
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
-
-from hylios.errors import InputError
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 
 from ..model.settings import DOSE_LIMIT, LAST_DAY_LIMIT
 from ..props.copying import copy_values
 from ..props.presets import OF_ONE_MESH
 from .active import active_settings, can_edit
-from .lists import SELECTED, after_removing, index_of, move
-
-
-def _has_exposures(cls: Any, context: bpy.types.Context) -> bool:
-    """Whether there is a time in the sun; a poll of `cls` says so where there is none."""
-    if can_edit(cls, context) and not active_settings(context).exposures:
-        cls.poll_message_set("The object has no time in the sun: add one with +")
-        return False
-    return can_edit(cls, context)
+from .lists import OnMember, RemovesMember, move
 
 
 class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
@@ -68,81 +58,47 @@ class SKIN_TAN_OT_add_exposure(bpy.types.Operator):  # noqa: N801
         return {"FINISHED"}
 
 
-class SKIN_TAN_OT_duplicate_exposure(bpy.types.Operator):  # noqa: N801
+class _OnExposure(OnMember):
+    members, selected = "exposures", "exposure_index"
+    nothing = "The object has no time in the sun: add one with +"
+
+
+class SKIN_TAN_OT_duplicate_exposure(_OnExposure, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.duplicate_exposure"
     bl_label = "Duplicate Time in the Sun"
     bl_description = "Copy the selected time in the sun, on the same day"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context):
-        return _has_exposures(cls, context)
-
-    def execute(self, context):
-        settings = active_settings(context)
-        try:
-            source = index_of(settings.exposures, settings.exposure_index, self.index)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        added = settings.exposures.add()
-        copy_values(settings.exposures[source], added)
-        settings.exposures.move(len(settings.exposures) - 1, source + 1)
-        settings.exposure_index = source + 1
-        return {"FINISHED"}
+    def act(self, members: Any, index: int, selected: int) -> int | None:
+        added = members.add()
+        copy_values(members[index], added)
+        members.move(len(members) - 1, index + 1)
+        return index + 1
 
 
-class SKIN_TAN_OT_move_exposure(bpy.types.Operator):  # noqa: N801
+class SKIN_TAN_OT_move_exposure(_OnExposure, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.move_exposure"
     bl_label = "Move Time in the Sun"
     bl_description = "Move the selected time in the sun up or down the list; its day stays"
     bl_options = {"REGISTER", "UNDO"}
 
     direction: EnumProperty(
-        name="Direction", items=(("UP", "Up", ""), ("DOWN", "Down", "")), default="UP"
+        name="Direction",
+        description="Which way in the list",
+        items=(("UP", "Up", ""), ("DOWN", "Down", "")),
+        default="UP",
     )
-    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
 
-    @classmethod
-    def poll(cls, context):
-        return _has_exposures(cls, context)
-
-    def execute(self, context):
-        settings = active_settings(context)
-        try:
-            source = index_of(settings.exposures, settings.exposure_index, self.index)
-            target = source + (-1 if self.direction == "UP" else 1)
-            if not 0 <= target < len(settings.exposures):
-                return {"CANCELLED"}
-            move(settings.exposures, source, target)
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        settings.exposure_index = target
-        return {"FINISHED"}
+    def act(self, members: Any, index: int, selected: int) -> int | None:
+        target = index + (-1 if self.direction == "UP" else 1)
+        if not 0 <= target < len(members):
+            return None
+        move(members, index, target)
+        return target
 
 
-class SKIN_TAN_OT_remove_exposure(bpy.types.Operator):  # noqa: N801
+class SKIN_TAN_OT_remove_exposure(_OnExposure, RemovesMember, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.remove_exposure"
     bl_label = "Remove Time in the Sun"
     bl_description = "Remove the selected time in the sun"
     bl_options = {"REGISTER", "UNDO"}
-
-    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context):
-        return _has_exposures(cls, context)
-
-    def execute(self, context):
-        settings = active_settings(context)
-        try:
-            settings.exposure_index = after_removing(
-                settings.exposures, settings.exposure_index, self.index
-            )
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}

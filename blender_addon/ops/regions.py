@@ -1,14 +1,12 @@
 """The buttons beside the list of regions."""
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
-
-from hylios.errors import InputError
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 
 from ..model.regions import MOST_STRENGTH
 from ..props.region import KIND_ITEMS
 from .active import active_settings, can_edit
-from .lists import SELECTED, after_removing
+from .lists import RemovesMember
 
 
 class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
@@ -47,28 +45,11 @@ class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
         return {"FINISHED"}
 
 
-class SKIN_TAN_OT_remove_region(bpy.types.Operator):  # noqa: N801
+class SKIN_TAN_OT_remove_region(RemovesMember, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.remove_region"
     bl_label = "Remove Region"
     bl_description = "Remove the selected region; its mask stays on the mesh"
     bl_options = {"REGISTER", "UNDO"}
 
-    index: IntProperty(name="Index", default=SELECTED, options={"SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context):
-        if can_edit(cls, context) and not active_settings(context).regions:
-            cls.poll_message_set("The object has no region of the skin: add one with +")
-            return False
-        return can_edit(cls, context)
-
-    def execute(self, context):
-        settings = active_settings(context)
-        try:
-            settings.region_index = after_removing(
-                settings.regions, settings.region_index, self.index
-            )
-        except InputError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
+    members, selected = "regions", "region_index"
+    nothing = "The object has no region of the skin: add one with +"

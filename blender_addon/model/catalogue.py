@@ -25,15 +25,12 @@ class ShippedTable:
     name : str
         The skin type or specimen, such as III or S3.
     path : Path
-    pigmentation : str
-        Its constitutive pigmentation: low, intermediate or high.
     problem : str
         Why it cannot be used, in a sentence; empty where it can.
     """
 
     name: str
     path: Path
-    pigmentation: str = ""
     problem: str = ""
 
 
@@ -45,10 +42,10 @@ def shipped_tables(folder: Path = FOLDER) -> tuple[ShippedTable, ...]:
 
 def _shipped(path: Path) -> ShippedTable:
     try:
-        pigmentation = provenance(path).get("pigmentation", "")
+        provenance(path)
     except InputError as error:
         return ShippedTable(path.stem, path, problem=str(error))
-    return ShippedTable(path.stem, path, pigmentation=str(pigmentation)[:40])
+    return ShippedTable(path.stem, path)
 
 
 def in_order(name: str) -> tuple[int, str]:

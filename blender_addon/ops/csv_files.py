@@ -93,7 +93,7 @@ class _Reads(ImportHelper):
 
     replace: bpy.props.BoolProperty(
         name="Replace",
-        description="Remove the times in the sun that are listed, not add to them",
+        description="Put these in place of the times in the sun that are listed. Off: add them",
         default=True,
     )
 
@@ -155,21 +155,23 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
     filter_glob: bpy.props.StringProperty(default="*.epw;*.csv;*.json;*.txt", options={"HIDDEN"})
     month: bpy.props.IntProperty(
         name="Month",
-        description="Month of the first day, in an EPW file; UV indices count from their first day",
+        description="Month of the first day that is read of an EPW file. UV indices are read from "
+        "their first day on",
         default=USUAL_DATE[0],
         min=1,
         max=12,
     )
     day_of_month: bpy.props.IntProperty(
         name="Day of Month",
-        description="First day, in an EPW file; UV indices count from their first day",
+        description="First day that is read of an EPW file. UV indices are read from their first "
+        "day on",
         default=USUAL_DATE[1],
         min=1,
         max=31,
     )
     days: bpy.props.IntProperty(
         name="Days",
-        description="How many days in a row the skin is in the sun",
+        description="How many days in a row to read; every one becomes a time in the sun",
         default=7,
         min=0,
         soft_min=1,
@@ -177,14 +179,14 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
     )
     from_hour: bpy.props.FloatProperty(
         name="From (h)",
-        description="Start on every day, in hours of the file's clock, in an EPW file without "
-        "daylight saving",
+        description="When the skin goes into the sun every day, in hours of the file's clock (of "
+        "an EPW file: without daylight saving)",
         default=USUAL_HOURS[0],
         **HOUR_OF_DAY,
     )
     to_hour: bpy.props.FloatProperty(
         name="To (h)",
-        description="End on every day, in hours of the file's clock",
+        description="When it leaves the sun every day, in hours of the file's clock",
         default=USUAL_HOURS[1],
         **HOUR_OF_DAY,
     )

@@ -18,10 +18,15 @@ class SKIN_TAN_OT_add_region(bpy.types.Operator):  # noqa: N801
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    kind: EnumProperty(name="Kind", items=KIND_ITEMS, default="FRECKLES")
+    kind: EnumProperty(
+        name="Kind",
+        description="What is different there from the skin around it",
+        items=KIND_ITEMS,
+        default="FRECKLES",
+    )
     strength: FloatProperty(
         name="Strength",
-        description="1 is usual, 0 is nothing",
+        description="How much it differs from the skin around it: 1 is usual, 0 is not at all",
         default=1.0,
         min=0.0,
         max=MOST_STRENGTH,

@@ -29,7 +29,10 @@ class SKIN_TAN_OT_choose_type(bpy.types.Operator):  # noqa: N801
     bl_options = {"REGISTER", "UNDO"}
 
     type: EnumProperty(
-        name="Type", items=[(name, f"Type {name}", "") for name in TYPES], default="III"
+        name="Type",
+        description="I is very light skin, VI dark",
+        items=[(name, f"Type {name}", "") for name in TYPES],
+        default="III",
     )
 
     @classmethod

@@ -13,10 +13,10 @@ from .reports import finished
 class SKIN_TAN_OT_switch_view(bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.switch_view"
     bl_label = "Switch View"
-    bl_description = "Show all tanned skin of this file in one band of light"
+    bl_description = "Show all tanned skin of this file as a camera for other light sees it"
     bl_options = {"REGISTER", "UNDO"}
 
-    view: EnumProperty(name="View", description="Band of light", items=VIEW_ITEMS)
+    view: EnumProperty(name="View", description="The light in which skin is seen", items=VIEW_ITEMS)
 
     @classmethod
     def description(cls, context, properties):

@@ -30,8 +30,8 @@ from .mask import SkinTanMask, show_mask
 UNITS = (
     ("SED", "Dose", "As a dose in standard erythema doses (SED)"),
     ("MMD", "Tanning Doses", "As a multiple of the smallest dose that tans this skin (MMD)"),
-    ("UV_INDEX", "UV Index", "As hours at a UV index"),
-    ("SUN", "Sun", "As hours of a day at a place"),
+    ("UV_INDEX", "UV Index", "As hours at a UV index, as weather reports give it"),
+    ("SUN", "Sun", "As hours of a date at a latitude, with clouds, ground and water"),
 )
 
 GROUNDS = (
@@ -78,7 +78,7 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     enabled: BoolProperty(
         name="On",
-        description="Whether this time in the sun counts",
+        description="This time in the sun counts. Turn it off to see the tan without it",
         default=True,
     )
     day: FloatProperty(
@@ -91,7 +91,8 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     unit: EnumProperty(
         name="Given as",
-        description="How much sun: as a dose, or as hours under a UV index or the sun of a date",
+        description="How you say how much sun it was: as a dose, or as hours at a UV index or on a "
+        "date",
         items=UNITS,
         default="SED",
     )
@@ -176,8 +177,8 @@ class SkinTanExposure(bpy.types.PropertyGroup):
     )
     cloud: FloatProperty(
         name="Clouds",
-        description="How much of the sky clouds cover. Half of it leaves 84 % of the sun, all of "
-        "it 31 %: an average of all clouds",
+        description="How much of the sky clouds cover. A half leaves 84 % of the sun, a whole sky "
+        "31 %, on average over all clouds",
         subtype="PERCENTAGE",
         min=0.0,
         max=100.0,

@@ -81,7 +81,8 @@ def settings_of(obj: bpy.types.Object) -> "SkinTanSettings":
 class SkinTanSettings(bpy.types.PropertyGroup):
     skin: EnumProperty(
         name="Skin",
-        description="Skin type or specimen whose table is used",
+        description="Whose skin it is: a skin type from I (very light) to VI (dark), a skin of the "
+        "thesis, or a table of your own",
         items=SKIN_ITEMS,
         default=USUAL_SKIN,
     )
@@ -98,13 +99,13 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     own_minimal_doses: BoolProperty(
         name="Set Sensitivity by Hand",
-        description="Set how much sun this person needs to tan and to burn, in place of the "
-        "table's estimate",
+        description="Set how much sun this person needs to tan and to burn, in SED, in place of "
+        "the skin's own",
         update=_start_at_skin,
     )
     mmd: FloatProperty(
         name="Tans from (SED)",
-        description="Smallest dose in SED that tans this skin (MMD)",
+        description="Smallest dose in SED that tans this skin (MMD). Less: it tans more",
         default=7.0,
         min=LEAST_MINIMAL_DOSE,
         soft_max=60.0,
@@ -114,7 +115,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     med: FloatProperty(
         name="Burns from (SED)",
-        description="Smallest dose in SED that reddens this skin (MED)",
+        description="Smallest dose in SED that reddens this skin (MED). Less: it burns more",
         default=4.0,
         min=LEAST_MINIMAL_DOSE,
         soft_max=60.0,
@@ -124,7 +125,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     kinetics: EnumProperty(
         name="Tan",
-        description="How new melanin comes and goes",
+        description="How a tan comes and goes over the days",
         items=KINETICS,
         get=kinetics_of,
         set=keep_kinetics,
@@ -140,15 +141,13 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     redness_kept: kept_property("Sunburn, Kept", 1)
     peeling: BoolProperty(
         name="Peeling",
-        description="Four to eight days after 3 burn doses and more, skin peels in patches with "
-        "loose edges, and loses most of its tan there, in dark skin little; that heals in weeks. "
-        "An estimate",
+        description="Skin that got 3 burn doses or more peels in patches 4 to 8 days later. It "
+        "loses most of its tan there (dark skin little) and regains it over weeks. An estimate",
     )
     darkening: BoolProperty(
         name="UVA Darkening",
-        description="Melanin that is there darkens at once in UVA, and pales over two days. Only "
-        "of times given as Sun, whose UVA is known. Seen where frames lie hours apart, not days. "
-        "An estimate",
+        description="Skin darkens while it is in the sun and pales over two days, before the tan "
+        "comes. For times given as Sun; seen where frames are hours apart, not days. An estimate",
     )
     model_scale: FloatProperty(
         name="Model Scale",
@@ -187,8 +186,8 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     usual_colour: FloatVectorProperty(
         name="Usual Colour",
-        description="The colour in which most of the skin is painted; it tans as its type does. "
-        "Reset it, and Apply takes it from the texture",
+        description="The colour in which most of the skin is painted; it tans as the skin type "
+        "does. Black: Apply Tan takes it from the texture",
         subtype="COLOR",
         min=0.0,
         max=1.0,
@@ -197,7 +196,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     exposure_index: IntProperty(name="Active Time in the Sun", options={"HIDDEN"})
     film: EnumProperty(
         name="Film",
-        description="What lies on the skin. It shines, and the skin's own gloss goes",
+        description="What lies on the skin: it shines, and fills the pores. It does not protect",
         items=FILMS,
         default="NONE",
     )

@@ -74,7 +74,7 @@ class SkinTanRegionMask(bpy.types.PropertyGroup):
 class SkinTanRegion(bpy.types.PropertyGroup):
     enabled: BoolProperty(
         name="On",
-        description="Whether this region shows",
+        description="This region shows. Turn it off to see the skin without it",
         default=True,
     )
     kind: EnumProperty(
@@ -85,7 +85,8 @@ class SkinTanRegion(bpy.types.PropertyGroup):
     )
     strength: FloatProperty(
         name="Strength",
-        description="1 is usual, 0 is nothing. Of spots there are more, too, with more of it",
+        description="How much the region differs from the skin around it: 1 is usual, 0 is not at "
+        "all. More of it also brings more spots",
         default=1.0,
         min=0.0,
         max=MOST_STRENGTH,
@@ -93,8 +94,8 @@ class SkinTanRegion(bpy.types.PropertyGroup):
     )
     painted: BoolProperty(
         name="Painted Spots",
-        description="The mask holds the spots themselves. Without this, spots come by themselves, "
-        "where the mask is or everywhere",
+        description="The mask holds the spots themselves. Turn it off for spots that come by "
+        "themselves, where the mask is or everywhere",
     )
     mask: PointerProperty(name="Mask", type=SkinTanRegionMask)
 

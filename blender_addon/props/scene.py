@@ -40,8 +40,8 @@ class SkinTanScene(bpy.types.PropertyGroup):
     )
     view: EnumProperty(
         name="View",
-        description="Show all tanned skin of this file in one band of light. Other materials "
-        "and lamps stay as they are",
+        description="Show all tanned skin of this file as a camera for ultraviolet or infrared "
+        "sees it. Other materials and lamps stay as they are",
         items=VIEW_ITEMS,
         options=set(),
         get=lambda self: _number_of(view_of_file()),

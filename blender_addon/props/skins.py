@@ -46,8 +46,9 @@ def skin_items(tables: Iterable[ShippedTable]) -> tuple[tuple[str, str, str, int
 def _description(table: ShippedTable) -> str:
     if table.problem:
         return f"This skin cannot be used, install the add-on anew: {table.problem}"
-    kind = "Fitzpatrick skin type" if table.name in TYPES else "Skin of specimen"
-    return f"{kind} {table.name}, {table.pigmentation} pigmentation"
+    if table.name in TYPES:
+        return f"Fitzpatrick skin type {table.name}, fitted to measured people"
+    return f"Skin {table.name} of the thesis" if table.name in SKIN_LABELS else f"Skin {table.name}"
 
 
 def usual_skin(names: Sequence[str]) -> str:

@@ -42,7 +42,7 @@ def settings_of(cls):
     return {
         name
         for name, deferred in cls.__annotations__.items()
-        if "HIDDEN" not in deferred.keywords.get("options", ())
+        if name != "name" and "HIDDEN" not in deferred.keywords.get("options", ())
     }
 
 

@@ -18,7 +18,6 @@ def folder(tmp_path):
 def test_a_damaged_table_does_not_hide_the_others(folder):
     third, sixth = catalogue.shipped_tables(folder)
     assert (third.name, third.problem) == ("III", "")
-    assert third.pigmentation == "low"
     assert sixth.name == "VI" and "it is cut short or damaged" in sixth.problem
     assert summary.of_table(third.path)[0].startswith("Tans from")
     with pytest.raises(InputError, match="cut short or damaged"):

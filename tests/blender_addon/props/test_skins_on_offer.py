@@ -18,10 +18,14 @@ def test_types_are_offered_first_and_type_3_is_usual():
 
 
 def test_what_is_shipped_is_offered():
-    items = skin_items(ShippedTable(name, Path(), "low") for name in ("III", "S3", "Ada"))
+    items = skin_items(ShippedTable(name, Path()) for name in ("III", "S3", "Ada"))
     assert [item[0] for item in items] == ["III", "S3", "Ada", "FILE"]
     assert [item[1] for item in items[:3]] == ["Type III, intermediate", "Light (S3)", "Skin (Ada)"]
-    assert items[0][2] == "Fitzpatrick skin type III, low pigmentation"
+    assert [item[2] for item in items[:3]] == [
+        "Fitzpatrick skin type III, fitted to measured people",
+        "Skin S3 of the thesis",
+        "Skin Ada",
+    ]
     numbers = [item[3] for item in items]
     assert len(set(numbers)) == len(numbers) and np.all(np.array(numbers) >= 0)
 

@@ -222,11 +222,17 @@ def _restore_look(obj: bpy.types.Object, text: str) -> None:
 
 
 def _restore(obj: bpy.types.Object, text: str) -> None:
+    """Have a history be that of settings; where that takes another look it stays as it was."""
     settings = settings_of(obj)
     former = settings.applied
-    is_schedule = text == former or applied.is_only_schedule_changed(former, text)
+    is_schedule = text == former or (
+        applied.is_only_schedule_changed(former, text)
+        and not applied.is_sensitivity_changed(former, text)
+    )
     if not is_schedule or not _is_alone(obj):
         settings.undone = text
+        for image in nodes.own_history(settings.group) or ():
+            images.show_packed(image)
         return
     restored = [images.restore(image, applied.digest(text)) for image in _history(obj)]
     if not all(restored):

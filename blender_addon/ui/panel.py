@@ -7,7 +7,7 @@ import bpy
 
 from hylios.errors import InputError
 
-from ..applied import is_changed, is_left_behind
+from ..applied import is_changed, is_left_behind, text_of
 from ..model.lines import Line
 from ..model.summary import LINE
 from ..ops.active import active_mesh, current_scene
@@ -65,14 +65,14 @@ class _Main:
         draw_curve(layout, settings)
         layout.prop(settings, "live")
         if is_changed(obj, current_scene(context)):
-            _draw_change(layout, obj)
+            _draw_change(layout, obj, current_scene(context))
         if is_left_behind(obj, current_scene(context)):
             draw_lines(layout, FRAMES_CHANGED, "INFO")
         draw_size(layout, obj, current_scene(context))
         layout.operator("skin_tan.remove", icon="X")
 
 
-def _draw_change(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+def _draw_change(layout: bpy.types.UILayout, obj: bpy.types.Object, scene: bpy.types.Scene) -> None:
     """What waits for Apply, or why it would refuse."""
     settings = settings_of(obj)
     try:
@@ -82,7 +82,7 @@ def _draw_change(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
         said = textwrap.wrap(str(error).split(";")[0], LINE)
         draw_lines(layout, (Line("Apply Tan cannot show it:"), *said), "ERROR")
         return
-    if not settings.live:
+    if not settings.live or settings.undone == text_of(obj, scene):
         layout.label(text="Changed: Apply Tan shows it", icon="ERROR")
 
 

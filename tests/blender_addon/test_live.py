@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scenes import apply, look, of_role, pixels, tan_object
 
-from blender_addon import applied, live
+from blender_addon import applied, live, timers
 from blender_addon.model import catalogue
 from blender_addon.model.tan import history_of
 from blender_addon.scene import exr
@@ -87,6 +87,25 @@ def test_another_sensitivity_leads_to_what_apply_shows(body):
     shown = look(body)
     apply(body)
     assert look(body) == shown
+
+
+def test_undo_of_another_sensitivity_leads_to_the_look_that_was(body, monkeypatch):
+    """States of doses by hand lie elsewhere than the look of before tells."""
+    monkeypatch.setattr(timers, "are_called", lambda: True)
+    bpy.ops.ed.undo_push(message="applied")
+    before = look(body)
+    body.skin_tan.own_minimal_doses, body.skin_tan.mmd = True, 15.0
+    bpy.ops.ed.undo_push(message="sensitivity")
+    live.show_changes()
+    live.make_exact()
+    after = look(body)
+    for go, expected in (("undo", before), ("undo", before), ("redo", before), ("redo", after)):
+        getattr(bpy.ops.ed, go)()
+        live.make_exact()
+        body = bpy.data.objects["Body"]
+        is_between = look(body) == before and body.skin_tan.own_minimal_doses
+        assert look(body) == expected
+        assert stale() == is_between
 
 
 def test_no_tan_is_made_where_there_was_none(table_path):

@@ -29,7 +29,7 @@ class Artist:
 
     def change(self) -> None:
         settings = body().skin_tan
-        kind = self.random.integers(12)
+        kind = self.random.integers(13)
         if kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
@@ -52,6 +52,9 @@ class Artist:
         elif kind == 9:
             settings.darkening = not settings.darkening
             settings.exposures[0].unit = str(self.random.choice(["SUN", "SED"]))
+        elif kind == 10:
+            settings.own_minimal_doses = True
+            settings.mmd = float(self.random.choice([6.0, 15.0]))
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 

@@ -7,7 +7,9 @@ import pytest
 from artist_skins import plain, wear
 from scenes import tan_object
 
+from blender_addon import applied
 from blender_addon.model import catalogue, doses
+from blender_addon.model.summary import LINE
 from blender_addon.ui import panel, view
 from lut_builder.exr_writer import write_table
 
@@ -314,3 +316,41 @@ def test_a_mask_that_is_gone_is_marked(table_path):
     assert gone not in drawn()
     exposure.own_mask, exposure.mask.source = True, "absent"
     assert gone in drawn()
+
+
+@pytest.mark.parametrize("of", ["object", "exposure", "film", "region"])
+def test_why_apply_would_refuse_a_mask_is_told(table_path, of):
+    obj = tan_object(table_path)
+    settings = obj.skin_tan
+    bpy.ops.skin_tan.apply()
+    gone, refused = "The mesh does not have this mask:", "Apply Tan cannot show it:"
+    assert not {gone, refused} & set(drawn())
+    settings.exposures[0].own_mask = of == "exposure"
+    settings.film = "WATER" if of == "film" else "NONE"
+    if of == "region":
+        bpy.ops.skin_tan.add_region(kind="LIPS")
+    masks = {
+        "object": settings.mask,
+        "exposure": settings.exposures[0].mask,
+        "film": settings.film_mask,
+        "region": settings.regions[0].mask if settings.regions else None,
+    }
+    masks[of].source = "absent"
+    assert gone in drawn()
+    said = drawn(panel.VIEW3D_PT_skin_tan)
+    told = said[said.index(refused) + 1 :]
+    assert "'absent'" in " ".join(told) and max(map(len, told)) <= LINE
+    masks[of].source = ""
+    assert not {gone, refused} & set(drawn())
+
+
+def test_what_waits_for_apply_is_told(table_path):
+    settings = tan_object(table_path).skin_tan
+    bpy.ops.skin_tan.apply()
+    settings.exposures[0].dose = 3.0
+    waits = "Changed: Apply Tan shows it"
+    assert waits not in drawn()
+    settings.undone = applied.text_of(bpy.context.object, bpy.context.scene)
+    assert waits in drawn()
+    settings.live, settings.undone = False, ""
+    assert waits in drawn()

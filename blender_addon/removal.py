@@ -10,6 +10,7 @@ from .scene.changes import Changes
 from .scene.day_removal import remove_day
 from .scene.removal import take_off
 from .scene.slots import has_tan
+from .scene.timeline import require_no_tweak_mode
 from .scene.vertex_groups import remove_own
 from .tannable import tannable
 
@@ -34,12 +35,15 @@ def remove_tan(obj: bpy.types.Object | None, *, keep_timing: bool = False) -> st
     if not has_tan(obj):
         raise InputError(f"{obj.name!r} has no tan; Apply Tan gives it one.")
     settings = settings_of(obj)
+    # Keys of the artist's own stay; a file from before Apply noted its keys has only ours.
+    takes_day = not keep_timing and (any(settings.keyed) or not settings.applied)
+    if takes_day:
+        require_no_tweak_mode(obj)
     with Changes() as changes:
         keep_response(settings, changes)
         said = take_off(obj, changes)
         remove_own(obj, changes)
-        # Keys of the artist's own stay; a file from before Apply noted its keys has only ours.
-        if not keep_timing and (any(settings.keyed) or not settings.applied):
+        if takes_day:
             said += remove_day(obj, changes, settings.own_day)
             changes.set(settings, "keyed", (0.0, 0.0, 0.0, 0.0))
         if not keep_timing:

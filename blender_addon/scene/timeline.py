@@ -35,16 +35,21 @@ def check_day_property(obj: bpy.types.Object) -> None:
         In the NLA's tweak mode, in which Blender refuses another action, and where a property of
         the artist's own has the name.
     """
-    if obj.animation_data and obj.animation_data.use_tweak_mode:
-        raise InputError(
-            f"The animation of {obj.name!r} is in tweak mode; leave tweak mode in the Nonlinear "
-            "Animation editor (Tab)."
-        )
+    require_no_tweak_mode(obj)
     day = obj.get(DAY_PROPERTY, 0.0)
     if not isinstance(day, int | float):
         raise InputError(
             f"The custom property {DAY_PROPERTY!r} of {obj.name!r} holds no number, and the day of "
             "the tan needs that name; rename the property."
+        )
+
+
+def require_no_tweak_mode(obj: bpy.types.Object) -> None:
+    """Refuse an object in the NLA's tweak mode, in which Blender refuses another action."""
+    if obj.animation_data and obj.animation_data.use_tweak_mode:
+        raise InputError(
+            f"The animation of {obj.name!r} is in tweak mode; leave tweak mode in the Nonlinear "
+            "Animation editor (Tab)."
         )
 
 
@@ -196,6 +201,7 @@ def key_days(
     curve.extrapolation = "CONSTANT"
     curve.update()
     _set_day(obj, curve.evaluate(scene.frame_current_final), changes)
+    _widen_range(obj, days)
     if obj.animation_data is None:
         changes.on_failure(obj.animation_data_clear)
     animation = obj.animation_data or obj.animation_data_create()
@@ -216,6 +222,14 @@ def _set_day(obj: bpy.types.Object, day: float, changes: Changes) -> None:
     _set_appearance(obj, {"description": "Day of the tan", "precision": 2})
     # A shot that links the character may key its own days.
     cast(Any, obj).property_overridable_library_set(DATA_PATH, True)
+
+
+def _widen_range(obj: bpy.types.Object, days: tuple[float, float]) -> None:
+    """Have days within the range of the property: Blender cuts what keys say to that."""
+    range_ = cast(Any, obj).id_properties_ui(DAY_PROPERTY).as_dict()
+    lowest, highest = min(range_["min"], *days), max(range_["max"], *days)
+    if (lowest, highest) != (range_["min"], range_["max"]):
+        _set_appearance(obj, {"min": lowest, "max": highest})
 
 
 def _set_appearance(obj: bpy.types.Object, appearance: dict[str, Any]) -> None:

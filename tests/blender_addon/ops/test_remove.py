@@ -246,6 +246,8 @@ def test_an_artists_own_property_of_that_name_stays(table_path):
     assert obj.skin_tan.kinetics == "MEASURED"
     assert "'tan_day', which you had," in apply_tan(obj, bpy.context.scene)
     bpy.ops.skin_tan.apply()
+    bpy.context.scene.frame_set(bpy.context.scene.frame_end)
+    assert obj["tan_day"] == 30.0  # Blender cuts what keys say to the range of the property
     bpy.ops.skin_tan.remove()
     shown = obj.id_properties_ui("tan_day").as_dict()
     assert (obj["tan_day"], shown["description"], shown["max"]) == (7.0, "Mine", 9.0)
@@ -258,6 +260,21 @@ def test_an_artists_own_property_of_that_name_stays(table_path):
     apply(obj)
     bpy.ops.skin_tan.remove()
     assert (obj["tan_day"], obj.id_properties_ui("tan_day").as_dict()) == (3, before)
+
+
+def test_tweak_mode_is_refused_and_leaves_all_as_it_was(table_path):
+    obj = tan_object(table_path)
+    apply(obj)
+    animation = obj.animation_data
+    track = animation.nla_tracks.new()
+    track.strips.new("days", 1, animation.action).select = True
+    animation.action, animation.nla_tracks.active = None, track
+    animation.use_tweak_mode = True
+    group = obj.skin_tan.group
+    with pytest.raises(RuntimeError, match="The animation of 'Body' is in tweak mode; leave"):
+        bpy.ops.skin_tan.remove()
+    assert obj.skin_tan.group == group and obj.skin_tan.applied
+    assert bpy.ops.skin_tan.remove(keep_timing=True) == {"FINISHED"}
 
 
 def test_a_strip_that_stays_is_said(table_path, capfd):

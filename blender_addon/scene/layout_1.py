@@ -1,8 +1,8 @@
-"""Node groups by the plan before today's, which showed images over share and day: taken over.
+"""Node groups by layout 1, which showed images over share and day: taken over.
 
-Their two images gave colour and profile width at once. Today a first image gives the state, and
-others what it looks like. The nodes that showed the two images show the look of thin skin now, and
-what was linked to them is linked to what stands for them.
+Their two images gave colour and profile width at once. Since layout 2 a first image gives the
+state, and others what it looks like. The nodes that showed the two images show the look of thin
+skin now, and what was linked to them is linked to what stands for them.
 """
 
 from collections.abc import Collection

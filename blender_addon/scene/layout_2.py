@@ -1,7 +1,7 @@
-"""Node groups by the plan before today's: taken over.
+"""Node groups by layout 2: taken over.
 
-Nodes of theirs led coordinates to places in images, which nodes of images do themselves today, and
-others computed what the gloss lets through, which an image tells today. An image held the colour of
+Nodes of theirs led coordinates to places in images, which nodes of images do themselves since, and
+others computed what the gloss lets through, which an image tells since. An image held the colour of
 thick skin, not by how much it differs.
 """
 

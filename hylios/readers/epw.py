@@ -78,24 +78,19 @@ def epw_of(lines: Sequence[str], name: str) -> Weather:
     """Weather from lines of text; the rest as in `read_epw`."""
     if not is_epw(lines):
         raise InputError(f"{name} cannot be read: its first line is not LOCATION of an EPW file.")
-    place = _cells(lines[0])
-    latitude, longitude, offset, altitude = (
-        _number(name, what, place, column, 1, low, high)
-        for what, column, low, high in (
-            ("latitude", 6, -90.0, 90.0),
-            ("longitude", 7, -180.0, 180.0),
-            ("time zone", 8, -14.0, 14.0),
-            ("elevation", 9, -500.0, 9000.0),
-        )
-    )
-    first = _first_row(lines, name)
+    place = _Row.of(name, 1, lines[0])
+    latitude = place.number("latitude", 6, -90.0, 90.0)
+    longitude = place.number("longitude", 7, -180.0, 180.0)
+    offset = place.number("time zone", 8, -14.0, 14.0)
+    altitude = place.number("elevation", 9, -500.0, 9000.0)
+    first = _headings(lines, name)
     rows: dict[tuple[int, int, int], int] = {}
     radiation, cover, numbers = [], [], []
     for number, line in enumerate(lines[first:], start=first + 1):
         if not line.strip():
             continue
-        cells = _cells(line)
-        hour = _hour(name, cells, number)
+        row = _Row.of(name, number, line)
+        hour = _hour(row)
         if hour in rows:
             month, day, begin = hour
             raise InputError(
@@ -104,80 +99,81 @@ def epw_of(lines: Sequence[str], name: str) -> Weather:
             )
         rows[hour] = len(numbers)
         numbers.append(number)
-        radiation.append(_or_missing(name, "global radiation", cells, GLOBAL, number, 2e3, 9999.0))
-        cover.append(0.1 * _or_missing(name, "total sky cover", cells, COVER, number, 10.0, 99.0))
+        radiation.append(row.number_or_nan("global radiation", GLOBAL, 2e3, missing=9999.0))
+        cover.append(0.1 * row.number_or_nan("total sky cover", COVER, 10.0, missing=99.0))
     if not numbers:
         raise InputError(f"{name} has no rows after DATA PERIODS; needed is one or more.")
     values = np.array(radiation), np.array(cover), np.array(numbers)
     return Weather(name, latitude, longitude, offset, altitude, rows, *values)
 
 
-def _first_row(lines: Sequence[str], name: str) -> int:
+def _headings(lines: Sequence[str], name: str) -> int:
     """Number of lines up to DATA PERIODS, which says that an hour has one row."""
     for number, line in enumerate(lines[:MOST_HEADINGS], start=1):
-        cells = _cells(line)
-        if cells[0].casefold() == "data periods":
-            _number(name, "number of rows per hour", cells, 2, number, 1.0, 1.0)
+        row = _Row.of(name, number, line)
+        if row.cells[0].casefold() == "data periods":
+            row.number("number of rows per hour", 2, 1.0, 1.0)
             return number
     raise InputError(
         f"{name} cannot be read: it has no line DATA PERIODS in its first {MOST_HEADINGS} lines."
     )
 
 
-def _hour(name: str, cells: Sequence[str], line: int) -> tuple[int, int, int]:
+def _hour(row: "_Row") -> tuple[int, int, int]:
     """Month, day and the hour that a row begins with, 0 to 23."""
-    month = _whole(name, "month", cells, MONTH, line, 12)
-    day = _whole(name, "day", cells, DAY, line, 31)
+    month, day = row.whole("month", MONTH, 12), row.whole("day", DAY, 31)
     try:
         date(LEAP_YEAR, month, day)
     except ValueError as error:
         raise InputError(
-            f"{name} has a day of {day} in line {line}; month {month} has none."
+            f"{row.name} has a day of {day} in line {row.line}; month {month} has none."
         ) from error
-    return month, day, _whole(name, "clock hour", cells, HOUR, line, 24) - 1
+    return month, day, row.whole("clock hour", HOUR, 24) - 1
 
 
-def _cells(line: str) -> list[str]:
-    return [cell.strip() for cell in line.split(",")]
+@dataclass(frozen=True)
+class _Row:
+    """Cells of a line of a file; what they hold is named in the sentences that refuse it."""
 
+    name: str
+    line: int
+    cells: list[str]
 
-def _number(
-    name: str, what: str, cells: Sequence[str], column: int, line: int, low: float, high: float
-) -> float:
-    value = _read(name, what, cells, column, line)
-    if not low <= value <= high:
-        allowed = f"{low:g}" if low == high else f"{low:g} to {high:g}"
-        raise InputError(f"{name} has a {what} of {value:g} in line {line}; allowed is {allowed}.")
-    return value
+    @classmethod
+    def of(cls, name: str, line: int, text: str) -> "_Row":
+        return cls(name, line, [cell.strip() for cell in text.split(",")])
 
+    def number(self, what: str, column: int, low: float, high: float) -> float:
+        value = self._read(what, column)
+        if not low <= value <= high:
+            allowed = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+            raise self._refused(what, f"{value:g}", f"allowed is {allowed}.")
+        return value
 
-def _read(name: str, what: str, cells: Sequence[str], column: int, line: int) -> float:
-    if column >= len(cells):
-        raise InputError(
-            f"{name} has {len(cells)} cells in line {line}; the {what} is cell {column + 1}."
-        )
-    try:
-        return float(cells[column])
-    except ValueError as error:
-        raise InputError(
-            f"{name} has a {what} of {shown(cells[column][:60])!r} in line {line}; expected a "
-            "number."
-        ) from error
+    def number_or_nan(self, what: str, column: int, most: float, *, missing: float) -> float:
+        """A number from 0 to `most`, or nan where it is `missing` or more: there is none."""
+        if self._read(what, column) >= missing:
+            return np.nan
+        return self.number(what, column, 0.0, most)
 
+    def whole(self, what: str, column: int, most: int) -> int:
+        """A whole number from 1 to `most`."""
+        value = self.number(what, column, 1.0, most)
+        if value != int(value):
+            raise self._refused(what, f"{value:g}", "allowed are whole numbers.")
+        return int(value)
 
-def _whole(name: str, what: str, cells: Sequence[str], column: int, line: int, most: int) -> int:
-    value = _number(name, what, cells, column, line, 1.0, most)
-    if value != int(value):
-        raise InputError(
-            f"{name} has a {what} of {value:g} in line {line}; allowed are whole numbers."
-        )
-    return int(value)
+    def _read(self, what: str, column: int) -> float:
+        if column >= len(self.cells):
+            raise InputError(
+                f"{self.name} has {len(self.cells)} cells in line {self.line}; the {what} is cell "
+                f"{column + 1}."
+            )
+        cell = self.cells[column]
+        try:
+            return float(cell)
+        except ValueError as error:
+            raise self._refused(what, repr(shown(cell[:60])), "expected a number.") from error
 
-
-def _or_missing(
-    name: str, what: str, cells: Sequence[str], column: int, line: int, most: float, missing: float
-) -> float:
-    """A number from 0 to `most`, or nan where it is `missing` or more, which stands for none."""
-    if _read(name, what, cells, column, line) >= missing:
-        return np.nan
-    return _number(name, what, cells, column, line, 0.0, most)
+    def _refused(self, what: str, value: str, allowed: str) -> InputError:
+        return InputError(f"{self.name} has a {what} of {value} in line {self.line}; {allowed}")

@@ -1,4 +1,4 @@
-"""What a measurement of time against error tries, and how finely."""
+"""What a measurement of time against error tries, how finely, and at which states."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,10 @@ import numpy as np
 
 from hylios.adding.solver import NODES
 from hylios.quadrature import skin_quadrature
+from hylios.skin import Skin
+from hylios.skin.skin import MOST_BLOOD
 from lut_builder.check import FINE
+from lut_builder.reachable import reachable_states, untanned_state
 from lut_builder.settings import BANDS_NM
 
 BROAD = np.arange(250.0, 2501.0, 25.0)
@@ -100,3 +103,12 @@ def table_wavelengths(extent: Extent) -> np.ndarray:
 
 def fine_wavelengths() -> np.ndarray:
     return np.union1d(FINE, BANDS_NM)
+
+
+def between_knots(skin: Skin, count: int, seed: int) -> np.ndarray:
+    """Tanned states (N, 5) of schedules other than those that chose the axes, of any blood."""
+    states = reachable_states(skin, 100, seed)
+    tanned = np.abs(np.log(states / untanned_state(skin))).max(axis=1) > 1e-3
+    random = np.random.default_rng(seed)
+    tans = random.choice(states[tanned], count, replace=False)
+    return np.column_stack([tans, np.exp(random.uniform(0.0, np.log(MOST_BLOOD), count))])

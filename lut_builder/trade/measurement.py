@@ -15,7 +15,7 @@ Two things are not measured for every combination:
 
 import platform
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ import numpy as np
 
 from hylios.skin import Skin
 from lut_builder.settings import BANDS_NM, Settings
-from lut_builder.trade.extent import FULL, Extent
+from lut_builder.trade.extent import FULL, Extent, between_knots
 from lut_builder.trade.pareto import front
 from lut_builder.trade.parts import (
     Row,
@@ -35,7 +35,8 @@ from lut_builder.trade.parts import (
     solver_parts,
 )
 from lut_builder.trade.points import Point
-from lut_builder.trade.single import Cost, FineProfiles, between_knots
+from lut_builder.trade.profiles import FineProfiles
+from lut_builder.trade.solving import Cost
 from lut_builder.trade.steps import planned
 from lut_builder.trade.table_errors import (
     ColourError,
@@ -98,7 +99,7 @@ def measure(
         for number, walked in runs.items():
             profile[number, count] = completed(walked, fine, extent.profile_errors, noise)
     return Trade(
-        points=_points(extent, measured, colour, profile),
+        points=_points(measured, colour, profile),
         parts=[
             *colour_parts(extent, measured, colour),
             *solver_parts(extent, measured),
@@ -132,7 +133,6 @@ def _processor() -> str:
 
 
 def _points(
-    extent: Extent,
     measured: dict[Any, Any],
     colour: dict[Any, ColourError],
     profile: dict[Any, list[ProfileError]],
@@ -140,35 +140,33 @@ def _points(
     """All tables, with each profile and without."""
     points = []
     for (knots, kind, count, nodes), seen in colour.items():
+        settings = Settings(knots, count, profile_error=0.0, nodes=nodes, interpolation=kind)
         cost: Cost = measured["cost", nodes]
-        solved = cost.seconds(int(np.prod(knots)), count + len(BANDS_NM))
-
-        def point(profiled: ProfileError | None, **made) -> Point:
-            start = measured["start" if profiled else "start without profile"]
-            return Point(
-                Settings(
-                    profile_error=profiled.error if profiled else 0.0,
-                    **made,
-                ),
-                shared_seconds=solved + (profiled.shared if profiled else 0.0),  # noqa: B023
-                serial_seconds=profiled.serial if profiled else 0.0,
-                start_seconds=start,
-                delta_e_mean=seen.mean,  # noqa: B023
-                delta_e_largest=seen.largest,  # noqa: B023
-                band_rmse=seen.bands,  # noqa: B023
-                profile_rms=profiled.rms if profiled else 0.0,
-                profile_largest=profiled.largest if profiled else 0.0,
-                profile_lightness=profiled.lightness if profiled else 0.0,
-            )
-
-        made = {
-            "knots": knots,
-            "interpolation": kind,
-            "colour_wavelengths": count,
-            "nodes": nodes,
-        }
-        points.append(point(None, **made))
-        for (number, few), errors in profile.items():
-            made |= {"profile_states": number, "profile_wavelengths": few}
-            points += [point(error, **made) for error in errors]
+        without = Point(
+            settings,
+            shared_seconds=cost.seconds(settings.states, count + len(BANDS_NM)),
+            serial_seconds=0.0,
+            start_seconds=measured["start without profile"],
+            delta_e_mean=seen.mean,
+            delta_e_largest=seen.largest,
+            band_rmse=seen.bands,
+        )
+        points.append(without)
+        for (states, wavelengths), errors in profile.items():
+            walked = replace(settings, profile_states=states, profile_wavelengths=wavelengths)
+            points += [_with_profile(without, walked, error, measured["start"]) for error in errors]
     return points
+
+
+def _with_profile(without: Point, walked: Settings, profile: ProfileError, start: float) -> Point:
+    """A table with a profile besides."""
+    return replace(
+        without,
+        settings=replace(walked, profile_error=profile.error),
+        shared_seconds=without.shared_seconds + profile.shared,
+        serial_seconds=profile.serial,
+        start_seconds=start,
+        profile_rms=profile.rms,
+        profile_largest=profile.largest,
+        profile_lightness=profile.lightness,
+    )

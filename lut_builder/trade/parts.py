@@ -10,6 +10,7 @@ from hylios.lab.colour import difference
 from hylios.quadrature import skin_quadrature
 from hylios.table import INTERPOLATIONS
 from lut_builder.check import FINE
+from lut_builder.trade.components import component_errors, regions
 from lut_builder.trade.extent import (
     BASE_WAVELENGTHS,
     BROAD,
@@ -18,7 +19,7 @@ from lut_builder.trade.extent import (
     fine_wavelengths,
     table_wavelengths,
 )
-from lut_builder.trade.single import Cost, colours, component_errors, regions
+from lut_builder.trade.solving import Cost, colours
 from lut_builder.trade.table_errors import ColourError, ProfileError
 
 Row = dict[str, Any]

@@ -19,15 +19,9 @@ from lut_builder.trade.extent import (
     fine_wavelengths,
     table_wavelengths,
 )
-from lut_builder.trade.single import (
-    fine_profiles,
-    half_against_full,
-    profile_runs,
-    reflectances,
-    solver_cost,
-    start_seconds,
-    walk,
-)
+from lut_builder.trade.profiles import fine_profiles, profile_runs
+from lut_builder.trade.solving import reflectances, solver_cost, walk
+from lut_builder.trade.whole_tables import half_against_full, start_seconds
 
 Step = tuple[float, Callable[[], Any]]
 """Seconds that it takes, about, and the work."""

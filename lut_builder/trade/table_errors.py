@@ -17,7 +17,8 @@ from lut_builder.check import FINE
 from lut_builder.reachable import choose_axes
 from lut_builder.settings import BANDS_NM
 from lut_builder.trade.extent import Extent, fine_wavelengths, table_wavelengths
-from lut_builder.trade.single import FineProfiles, Run, colours, lightness_lost, share_errors
+from lut_builder.trade.profiles import FineProfiles, Run, lightness_lost, share_errors
+from lut_builder.trade.solving import colours
 
 
 @dataclass(frozen=True)

@@ -10,20 +10,18 @@ from hylios.skin.specimen import SPECIMENS
 from lut_builder.assemble import build
 from lut_builder.check import FINE
 from lut_builder.settings import Settings
-from lut_builder.trade.extent import BROAD, QUICK
+from lut_builder.trade.components import component_errors, regions
+from lut_builder.trade.extent import BROAD, QUICK, between_knots
 from lut_builder.trade.measurement import measure
 from lut_builder.trade.points import Point, read_points, write_points
-from lut_builder.trade.single import (
+from lut_builder.trade.profiles import (
     FineProfiles,
     Run,
-    between_knots,
-    component_errors,
     lightness_lost,
     profile_runs,
-    reflectances,
-    regions,
     share_errors,
 )
+from lut_builder.trade.solving import reflectances
 from lut_builder.trade.table_errors import completed, noise_share
 
 S3 = Skin.of(SPECIMENS["S3"])

@@ -91,68 +91,65 @@ CHANNEL = EnumProperty(
 )
 
 
-class SkinTanMask(bpy.types.PropertyGroup):
-    source: StringProperty(
-        name="Mask",
-        description="What says how much of the sun reaches each point: 0 is covered, 1 is bare. A "
-        "vertex group, an attribute of points, corners or faces, or an image",
+def source_field(name: str, says: str) -> Any:
+    """The name of what a mask reads; `says` what it tells, and what 0 and 1 mean."""
+    return StringProperty(
+        name=name,
+        description=f"{says}. A vertex group, an attribute of points, corners or faces, or an "
+        "image",
         search=usable_names,
         update=take_source,
     )
-    image: PointerProperty(
+
+
+def image_field(says: str) -> Any:
+    """The image itself, where a mask reads one; `says` what black and white mean."""
+    return PointerProperty(
         name="Image",
-        description="The image that is the mask: black is covered, white is bare",
+        description=f"The image that is the mask: {says}",
         type=bpy.types.Image,
         update=take_image,
     )
-    uv_map: UV_MAP
-    channel: CHANNEL
-    invert: BoolProperty(
-        name="Invert",
-        description="The sun reaches where the mask is black (0), as with a vertex group that "
-        "holds what clothes cover",
-        update=show_mask,
-    )
-    strength: FloatProperty(
-        name="Strength",
-        description="How much sun the cloth holds back: 1 is all of it, 0.5 lets half through",
+
+
+def invert_field(says: str) -> Any:
+    return BoolProperty(name="Invert", description=says, update=show_mask)
+
+
+def strength_field(name: str, says: str, update: Any = show_mask) -> Any:
+    return FloatProperty(
+        name=name,
+        description=says,
         default=1.0,
         min=0.0,
         max=1.0,
         subtype="FACTOR",
-        update=show_mask,
+        update=update,
+    )
+
+
+class SkinTanMask(bpy.types.PropertyGroup):
+    source: source_field(
+        "Mask", "What says how much of the sun reaches each point: 0 is covered, 1 is bare"
+    )
+    image: image_field("black is covered, white is bare")
+    uv_map: UV_MAP
+    channel: CHANNEL
+    invert: invert_field(
+        "The sun reaches where the mask is black (0), as with a vertex group that holds what "
+        "clothes cover"
+    )
+    strength: strength_field(
+        "Strength", "How much sun the cloth holds back: 1 is all of it, 0.5 lets half through"
     )
 
 
 class SkinTanFilmMask(bpy.types.PropertyGroup):
     """Like `SkinTanMask`, of where a film lies."""
 
-    source: StringProperty(
-        name="Film Mask",
-        description="What says where the film lies: 0 is dry, 1 is covered. A vertex group, an "
-        "attribute of points, corners or faces, or an image",
-        search=usable_names,
-        update=take_source,
-    )
-    image: PointerProperty(
-        name="Image",
-        description="The image that is the mask: black is dry, white is covered",
-        type=bpy.types.Image,
-        update=take_image,
-    )
+    source: source_field("Film Mask", "What says where the film lies: 0 is dry, 1 is covered")
+    image: image_field("black is dry, white is covered")
     uv_map: UV_MAP
     channel: CHANNEL
-    invert: BoolProperty(
-        name="Invert",
-        description="The film lies where the mask is black (0)",
-        update=show_mask,
-    )
-    strength: FloatProperty(
-        name="Strength",
-        description="How much of the skin the film covers where the mask is 1",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-        update=show_mask,
-    )
+    invert: invert_field("The film lies where the mask is black (0)")
+    strength: strength_field("Strength", "How much of the skin the film covers where the mask is 1")

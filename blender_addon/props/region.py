@@ -3,10 +3,10 @@
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
 
 from ..model.regions import MOST_STRENGTH, is_estimate, spots
-from .mask import CHANNEL, UV_MAP, show_mask, take_image, take_source, usable_names
+from .mask import CHANNEL, UV_MAP, image_field, invert_field, source_field, strength_field
 
 KINDS = (
     ("FRECKLES", 0, "Freckles", "Spots of 1 to 3 mm that tan more than the skin around them"),
@@ -41,33 +41,15 @@ LABELS = {name: label for name, _, label, _ in KINDS}
 class SkinTanRegionMask(bpy.types.PropertyGroup):
     """Like `SkinTanMask`, of where a region lies."""
 
-    source: StringProperty(
-        name="Region Mask",
-        description="What says where the region lies: 0 is nothing, 1 is all of it. A vertex "
-        "group, an attribute of points, corners or faces, or an image",
-        search=usable_names,
-        update=take_source,
+    source: source_field(
+        "Region Mask", "What says where the region lies: 0 is nothing, 1 is all of it"
     )
-    image: PointerProperty(
-        name="Image",
-        description="The image that is the mask: black is nothing, white is all of it",
-        type=bpy.types.Image,
-        update=take_image,
-    )
+    image: image_field("black is nothing, white is all of it")
     uv_map: UV_MAP
     channel: CHANNEL
-    invert: BoolProperty(
-        name="Invert",
-        description="The region lies where the mask is black (0)",
-        update=show_mask,
-    )
-    strength: FloatProperty(
-        name="Mask Strength",
-        description="How much of the region lies where the mask is 1",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    invert: invert_field("The region lies where the mask is black (0)")
+    strength: strength_field(
+        "Mask Strength", "How much of the region lies where the mask is 1", update=None
     )
 
 

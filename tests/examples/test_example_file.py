@@ -6,8 +6,19 @@ import bpy
 import numpy as np
 
 import blender_addon
+from blender_addon.model.curve import curve_of
+from blender_addon.model.summary import of_blisters
 from examples.demo import scene
 from examples.example_file.make import make
+from hylios.colour_difference import ciede2000, lab
+
+
+def require_plain_lines(values) -> None:
+    """On the darkest day bare skin is far from covered skin, and no day blisters."""
+    curve = curve_of(values)
+    bare, covered = lab(curve.colours[[curve.darkest, 0]])
+    assert ciede2000(bare, covered) > 9.0
+    assert not of_blisters(values)
 
 
 def test_the_file_has_clothes_masks_and_keyed_days(tmp_path):
@@ -15,7 +26,10 @@ def test_the_file_has_clothes_masks_and_keyed_days(tmp_path):
     blender_addon.register()
     try:
         make(replace(scene.suzanne(), levels=0), tmp_path / "made" / "example.blend")
-        assert bpy.data.objects["Suzanne"].skin_tan.kinetics == "MEASURED"
+        settings = bpy.data.objects["Suzanne"].skin_tan
+        assert settings.kinetics == "MEASURED" and settings.exposures[-1].own_mask
+        assert not any(time.own_mask for time in settings.exposures[:-1])
+        require_plain_lines(settings.values())
     finally:
         blender_addon.unregister()
     assert [file.name for file in (tmp_path / "made").iterdir()] == ["example.blend"]

@@ -31,13 +31,13 @@ def in_python(code, *path):
 
 
 def test_importing_is_quick_and_loads_nothing_heavy():
-    code = (
-        "import time; start = time.perf_counter(); import hylios\n"
-        "print(time.perf_counter() - start, *sys.modules)"
+    """Of processor time, lest it depend on what else the machine does."""
+    seconds, *modules = in_python(
+        "import time; start = time.process_time(); import hylios\n"
+        "print(time.process_time() - start, *sys.modules)"
     )
-    tries = [in_python(code) for _ in range(3)]
-    assert min(float(seconds) for seconds, *_ in tries) < 0.1
-    assert not {name for _, *modules in tries for name in modules} & {*HEAVY, "numpy"}
+    assert float(seconds) < 0.1
+    assert not set(modules) & {*HEAVY, "numpy"}
 
 
 def test_a_tan_without_its_colour_loads_numpy_alone():

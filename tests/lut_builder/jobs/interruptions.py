@@ -24,6 +24,7 @@ def killed_and_resumed(command, target, kills, seed, pause):
 
     Each is killed by SIGKILL at a random moment: up to `pause` seconds after it has done none to
     two more units, which hits the start, the units, the keeping of them and the pauses between.
+    One that has ended by then, as on a busy machine it may have, is begun anew.
 
     Parameters
     ----------
@@ -37,17 +38,21 @@ def killed_and_resumed(command, target, kills, seed, pause):
     Returns
     -------
     int
-        How many runs were killed; fewer than `kills` if the work had ended before.
+        How many runs were killed, of twice as many as there are to be.
     """
     random, folder = np.random.default_rng(seed), target.with_name(target.name + ".unfinished")
-    for kill in range(kills):
+    killed = 0
+    for _ in range(2 * kills):
         enough = units_in(folder) + random.integers(0, 3)
         with subprocess.Popen(command, stderr=subprocess.PIPE, env=environment()) as running:
             while running.poll() is None and units_in(folder) < enough:
                 time.sleep(0.002)
             time.sleep(random.uniform(0.0, pause))
             running.kill()
-        if running.returncode != -9:
-            return kill
+        assert running.returncode in (0, -9)
+        killed += running.returncode == -9
+        target.unlink(missing_ok=True)
+        if killed == kills:
+            break
     subprocess.run(command, check=True, capture_output=True, env=environment(), timeout=120)
-    return kills
+    return killed

@@ -58,7 +58,7 @@ def children(process):
 
 def require_gone(processes):
     """Wait for processes to end; the tracker that comes with them ends just after their parent."""
-    until = time.monotonic() + 10.0
+    until = time.monotonic() + 60.0
     while not all(gone(process) for process in processes):
         assert time.monotonic() < until
         time.sleep(0.01)
@@ -95,10 +95,9 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path, processes):
     running, folder = started(target, "--processes", processes)
     below = children(running.pid)
     os.killpg(running.pid, signal.SIGINT)
-    sent = time.monotonic()
-    _, said = running.communicate(timeout=30)
-    assert time.monotonic() - sent < 10.0
+    _, said = running.communicate(timeout=60)
     assert running.returncode == 130
+    assert 0 < units_in(folder) < 30
     assert said.splitlines()[-1] == (
         f"cancelled; what is done is kept in {folder}: give --resume to go on with it."
     )
@@ -125,7 +124,7 @@ def test_ctrl_c_while_processes_start_is_quiet(tmp_path):
         read = running.stderr.read(20)
         time.sleep(0.04 * moment)
         os.killpg(running.pid, signal.SIGINT)
-        said = read + running.communicate(timeout=30)[1]
+        said = read + running.communicate(timeout=60)[1]
         assert running.returncode == 130
         assert said.endswith("\ncancelled\n")
         assert "Traceback" not in said
@@ -137,7 +136,7 @@ def test_children_end_with_a_killed_parent(tmp_path):
     below = children(running.pid)
     assert len(below) == 3
     running.kill()
-    running.communicate(timeout=30)
+    running.communicate(timeout=60)
     require_gone(below)
 
 

@@ -67,7 +67,7 @@ def parameter_values():
     return st.fixed_dictionaries({}, optional=fields | contents | colloidal | arrangement)
 
 
-@settings(max_examples=50, deadline=None, derandomize=True)
+@settings(max_examples=50)
 @given(
     name=st.sampled_from(list(SPECIMENS)),
     values=parameter_values(),
@@ -130,7 +130,7 @@ def any_layer():
     )
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=150)
 @given(
     layers=st.lists(any_layer(), min_size=1, max_size=4),
     roughness=st.sampled_from((0.0, 1e-7, 1e-5, 0.1, 10.0)),

@@ -190,7 +190,7 @@ def test_cxf_that_does_not_say_what_it_holds_is_refused(tmp_path, text, sentence
 VALUES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=40)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(VALUES, st.integers(300, 500), st.integers(1, 20), st.sampled_from([" ", "\n", "\t "]))
 def test_cxf_and_cgats_read_as_they_were_written(values, start, step, blank):
     words = [repr(value) for value in values]

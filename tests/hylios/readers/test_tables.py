@@ -59,7 +59,7 @@ def written(draw):
     return values, bom + whole.encode(encoding)
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=600)
 @given(written())
 def test_a_table_reads_as_it_was_written_or_is_refused(tmp_path_factory, table):
     values, data = table

@@ -92,7 +92,7 @@ def spoilt(draw, text):
     return text
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(spoilt(EPW))
 def test_a_spoilt_epw_file_is_read_or_refused(text):
     try:
@@ -256,7 +256,7 @@ def test_bad_uv_indices_are_one_sentence(text, sentence):
     assert "\n" not in str(caught.value)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.sampled_from(list(WRITTEN.values())).flatmap(spoilt))
 def test_spoilt_uv_indices_are_read_or_refused(text):
     try:

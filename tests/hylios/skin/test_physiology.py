@@ -168,7 +168,7 @@ POSSIBLE = box(
 )
 
 
-@settings(deadline=None, max_examples=150, derandomize=True)
+@settings(max_examples=150)
 @given(values=PHYSIOLOGICAL, wavelength=st.floats(250.0, 2500.0))
 def test_all_of_physiology_gives_finite_optical_layers(values, wavelength):
     numbers = layer_numbers(specimen_of(consistent(values, 43.0)), wavelength)
@@ -180,7 +180,7 @@ def test_all_of_physiology_gives_finite_optical_layers(values, wavelength):
 REFUSAL = re.compile(r"(granulosum|spinosum|basale)_thickness is .* cm[;,] .*\.")
 
 
-@settings(deadline=None, max_examples=150, derandomize=True)
+@settings(max_examples=150)
 @given(values=PHYSIOLOGICAL, wavelength=st.floats(250.0, 2500.0))
 def test_all_of_physiology_can_be_solved(values, wavelength):
     """The table of survival reaches as far as the physiological shapes and indices do."""
@@ -188,7 +188,7 @@ def test_all_of_physiology_can_be_solved(values, wavelength):
     assert all(is_tabulated(layer, stack.melanin_index) for layer in stack.layers[1:4])
 
 
-@settings(deadline=None, max_examples=300, derandomize=True)
+@settings(max_examples=300)
 @given(values=POSSIBLE, wavelength=st.floats(250.0, 2500.0))
 def test_past_physiology_layers_are_finite_or_refused_for_their_thickness(values, wavelength):
     specimen = specimen_of(consistent(values, 100.0), allow_unphysical=True)
@@ -202,7 +202,7 @@ def test_past_physiology_layers_are_finite_or_refused_for_their_thickness(values
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=40, derandomize=True)
+@settings(max_examples=40)
 @given(values=POSSIBLE, wavelength=st.floats(250.0, 2500.0))
 def test_past_physiology_every_ray_ends(values, wavelength):
     specimen = specimen_of(consistent(values, 100.0), allow_unphysical=True)

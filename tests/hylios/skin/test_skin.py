@@ -42,7 +42,7 @@ def test_skin_without_melanin_stays_without():
         assert not Skin.of(bare, untanned=untanned).at([3.0, 2.0, 1.0, 1.0]).melanin.any()
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     name=st.sampled_from(NAMES),
     melanin=st.tuples(RELATIVE, RELATIVE, RELATIVE),

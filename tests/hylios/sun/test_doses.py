@@ -141,7 +141,7 @@ def test_a_bad_absorptance_is_named(wavelengths, values, sentence):
 SPECTRA = st.lists(st.floats(0.0, 1e6), min_size=NM.size, max_size=NM.size).map(np.array)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(SPECTRA, st.floats(1.0, 1e3), st.floats(0.0, 3600.0), st.floats(1.0, 100.0))
 def test_more_light_for_longer_is_more_dose(light, times, seconds, spf):
     usual = of_spectrum(0, NM, light, seconds, SKIN)
@@ -268,7 +268,7 @@ def test_a_day_in_june_is_tens_of_sed():
     assert 0.88 < doses.erythemal.sum() / published < 0.96
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.dates(date(1950, 1, 1), date(2050, 12, 31)),
     st.floats(-90.0, 90.0),

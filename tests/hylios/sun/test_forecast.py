@@ -67,7 +67,7 @@ def test_indices_far_apart_are_refused():
             of_forecast(told)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.lists(st.tuples(st.floats(0.01, 5.0), st.floats(0.0, 12.0)), min_size=2, max_size=20),
     st.floats(0.0, 60.0),

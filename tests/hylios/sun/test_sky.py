@@ -232,7 +232,7 @@ def test_uv_index_against_madronich(aerosol, least, most):
     assert np.max(ratios) == pytest.approx(most, abs=0.01)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.floats(0.0, 180.0), SKIES)
 def test_light_is_never_negative_and_none_at_night(zenith, sky):
     light = sunlight(zenith, sky)

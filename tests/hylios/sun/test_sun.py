@@ -75,7 +75,7 @@ def test_a_clock_is_set_by_its_offset():
     assert summer_time == sun(SUMMER, 11.0, 48.0, 11.0)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(DAYS, st.floats(0.0, 24.0), LATITUDES, st.none() | st.floats(-180.0, 180.0))
 def test_the_sun_is_somewhere(day, hour, latitude, longitude):
     place = sun(day, hour, latitude, longitude)

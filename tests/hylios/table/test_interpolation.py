@@ -23,7 +23,7 @@ lines = st.lists(st.floats(-1e3, 1e3, allow_subnormal=False), min_size=2, max_si
 steps = st.integers(0, 2**32 - 1)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(lines, steps)
 def test_on_a_line_it_is_scipy_s(numbers, seed):
     """The same cubic by an implementation of others, at 50 places to a line."""
@@ -34,7 +34,7 @@ def test_on_a_line_it_is_scipy_s(numbers, seed):
     assert np.abs(along("pchip", knots, values, positions) - expected).max() <= scale
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(lines, steps, st.sampled_from(["linear", "pchip"]))
 def test_on_a_line_order_is_kept_and_nothing_overshoots(numbers, seed, kind):
     values, knots = np.sort(numbers), random_knots(np.random.default_rng(seed), len(numbers))
@@ -44,7 +44,7 @@ def test_on_a_line_order_is_kept_and_nothing_overshoots(numbers, seed, kind):
     assert between[0] == values[0] and between[-1] == values[-1]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(lines, steps, st.sampled_from(["linear", "pchip"]))
 def test_at_the_knots_it_is_exact_and_beyond_them_held(numbers, seed, kind):
     values, knots = np.array(numbers), random_knots(np.random.default_rng(seed), len(numbers))

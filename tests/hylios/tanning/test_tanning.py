@@ -164,7 +164,7 @@ def test_the_equations_to_the_letter(name, hours):
     assert np.allclose(history.states, expected, rtol=1e-12, atol=0.0)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     rates=st.lists(st.floats(0.0, 0.5), min_size=12, max_size=12),
     decays=st.lists(st.floats(0.0, 0.999), min_size=4, max_size=4),
@@ -258,7 +258,7 @@ def test_a_later_dose_changes_nothing_before_it():
     assert np.array_equal(late.melanin, early.melanin)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     doses=st.lists(st.sampled_from([0.0, 1e-300, 1e-3, 1.0, 30.0, 1e6, LARGEST_DOSE]), max_size=20),
     name=st.sampled_from(list(PIGMENTATIONS)),

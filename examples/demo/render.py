@@ -108,7 +108,8 @@ def passes(
 def white(obj: bpy.types.Object) -> Iterator[None]:
     """Make an object a perfect white diffuser for a while."""
     material = bpy.data.materials.new("White")
-    material.use_nodes = True
+    if material.node_tree is None:
+        material.use_nodes = True  # Blender 4.5
     tree = material.node_tree
     tree.nodes.clear()
     diffuser = tree.nodes.new("ShaderNodeBsdfDiffuse")

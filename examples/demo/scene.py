@@ -201,7 +201,8 @@ def _placed(name: str, data, subject: Subject, turned: float, up: float, distanc
 def backdrop(light: float) -> bpy.types.World:
     """Even grey light from all around; the camera sees a grey that darkens to the corners."""
     world = bpy.data.worlds.new("Backdrop")
-    world.use_nodes = True
+    if world.node_tree is None:
+        world.use_nodes = True  # Blender 4.5
     tree = world.node_tree
     tree.nodes.clear()
     node, link = tree.nodes.new, tree.links.new

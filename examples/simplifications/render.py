@@ -34,7 +34,8 @@ def _ball():
     ball = bpy.context.object
     bpy.ops.object.shade_smooth()
     material = bpy.data.materials.new("skin")
-    material.use_nodes = True
+    if material.node_tree is None:
+        material.use_nodes = True  # Blender 4.5
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (0.5, 0.27, 0.17, 1.0)
     shader.inputs["Subsurface Radius"].default_value = (3.0, 1.5, 1.0)

@@ -1,6 +1,7 @@
 """The arrows between the packages point one way, as the README draws them."""
 
 import ast
+import re
 import sys
 from pathlib import Path
 
@@ -119,3 +120,12 @@ def test_no_file_needs_the_workplace():
     for name in tracked(ROOT, "."):
         text = (ROOT / name).read_bytes().decode("utf-8", errors="ignore")
         assert not any(word in text for word in forbidden), name
+
+
+def test_nodes_are_switched_on_only_where_there_are_none():
+    """From Blender 5.0 on there always are, and 6.0 is to lack the property."""
+    for name in tracked(ROOT, "."):
+        if name.endswith(".py"):
+            text = (ROOT / name).read_text(encoding="utf-8")
+            for before in re.findall(r"(.*)\n *\w+\.use_nodes = True", text):
+                assert "node_tree is None:" in before, name

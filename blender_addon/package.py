@@ -51,7 +51,7 @@ def build(destination: Path, root: Path = ROOT) -> Path:
     path = destination / f"{manifest['id']}-{manifest['version']}.zip"
     with written_beside(path) as unfinished:
         unfinished.write_bytes(zipped(files))
-        _extension_tool("validate", str(unfinished))
+        extension_tool("validate", str(unfinished))
     return path
 
 
@@ -155,7 +155,14 @@ def _digest(content: bytes) -> str:
     return base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
 
 
-def _extension_tool(*arguments: str) -> None:
+def extension_tool(*arguments: str) -> None:
+    """Have Blender's own tool for extensions do something.
+
+    Raises
+    ------
+    InputError
+        If it refuses, with what it says.
+    """
     folder = cast(Any, bpy.utils).system_resource("SCRIPTS", path="addons_core/bl_pkg/cli")
     tool = [sys.executable, str(Path(folder, "blender_ext.py"))]
     done = subprocess.run([*tool, *arguments], capture_output=True, text=True)

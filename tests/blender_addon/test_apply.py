@@ -365,11 +365,9 @@ def melanin() -> np.ndarray:
     return pixels(bpy.data.images["Skin Tan States Body"])[..., 0]
 
 
-@pytest.mark.parametrize("scale", [float("nan"), float("inf")])
-def test_a_unit_scale_that_is_no_length(body, scale):
-    bpy.context.scene.unit_settings.scale_length = scale
-    if bpy.context.scene.unit_settings.scale_length != 1e9:  # Blender may cut it
-        refused("unit scale of the scene is .*; allowed is 1e-09 to 1e\\+09")
+def test_a_unit_scale_that_is_no_length(body):
+    bpy.context.scene.unit_settings.scale_length = float("nan")
+    refused("unit scale of the scene is nan; allowed is 1e-09 to 1e\\+09")
 
 
 def test_minimal_doses_that_are_no_numbers(body):

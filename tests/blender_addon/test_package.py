@@ -169,4 +169,4 @@ def test_the_zip_can_be_installed_and_applied(archive, tmp_path):
 
 def test_what_the_tool_refuses_is_said_in_a_sentence(tmp_path):
     with pytest.raises(InputError, match="Blender's extension tool refuses to validate: .*absent"):
-        package._extension_tool("validate", str(tmp_path / "absent.zip"))
+        package.extension_tool("validate", str(tmp_path / "absent.zip"))

@@ -4,6 +4,7 @@ A process of its own, as Blender brings its own libraries; processor time, for o
 machine does not count.
 """
 
+import argparse
 import os
 import tempfile
 from contextlib import redirect_stdout
@@ -235,6 +236,7 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m examples.bench_blender", description=__doc__).parse_args()
     silence_blender()
     main()
     os._exit(0)  # Blender 4.5 may hang in an ordinary exit

@@ -3,6 +3,7 @@
 With --packages it prints the packages of all libraries that bpy loads.
 """
 
+import argparse
 import importlib.util
 import subprocess
 import sys
@@ -41,7 +42,9 @@ def sentence(missing: list[str]) -> str:
 
 def main() -> int:
     """Check the installed bpy; status 2 and a sentence where libraries are missing."""
-    if sys.argv[1:] == ["--packages"]:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--packages", action="store_true", help="print the packages of all")
+    if parser.parse_args().packages:
         print(*DEBIAN_PACKAGES.values())
         return 0
     module = importlib.util.find_spec("bpy")

@@ -1,5 +1,6 @@
 """Says where the project's version is not that of a tag: tools/check_version.py v1.2.3."""
 
+import argparse
 import re
 import sys
 from pathlib import Path
@@ -32,4 +33,6 @@ def main(tag: str) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("tag", help="of the release, as v1.2.3")
+    sys.exit(main(parser.parse_args().tag))

@@ -5,6 +5,7 @@ installed. A version holds on every platform; what other platforms need beyond t
 stays free.
 """
 
+import argparse
 import json
 import subprocess
 import sys
@@ -46,4 +47,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(description=__doc__).parse_args()
     sys.exit(main())

@@ -10,7 +10,7 @@ untanned skin's to three and a half times, and blood up to three times, at 8 deg
 takes ten seconds.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +54,8 @@ def colours() -> tuple[np.ndarray, np.ndarray]:
     return dry, np.array(wet)
 
 
-def main() -> None:
+def main(target: Path) -> None:
+    """Write the CSV."""
     dry, wet = colours()
     lines, errors = [], []
     for name, under in zip(LIQUIDS, wet, strict=True):
@@ -64,9 +65,11 @@ def main() -> None:
         errors.append(f"{name} {apart.mean():.2f} and {apart.max():.2f}")
         lines.append(",".join([name, *(f"{value:.4f}" for value in (*start, *slope))]))
     text = HEAD.format(angle=ANGLE, errors=", ".join(errors)) + "\n".join(lines) + "\n"
-    with written_beside(Path(sys.argv[1])) as unfinished:
+    with written_beside(target) as unfinished:
         unfinished.write_text(text)
 
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser("python -m examples.truth.film_fit", description=__doc__)
+    parser.add_argument("target", type=Path, help="the CSV to write")
+    main(parser.parse_args().target)

@@ -10,7 +10,7 @@ give L. The add-on divides colours by it.
 takes a minute and needs Blender's module.
 """
 
-import sys
+import argparse
 import tempfile
 from pathlib import Path
 
@@ -106,7 +106,8 @@ def render(angle: float, path: Path) -> np.ndarray:
     return np.array(means)
 
 
-def main() -> None:
+def main(target: Path) -> None:
+    """Write the CSV."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
@@ -130,9 +131,11 @@ def main() -> None:
     )
     for roughness, values in zip(ROUGHNESSES, through.T, strict=True):
         text += ",".join([f"{roughness:g}", *(f"{value:.4f}" for value in values)]) + "\n"
-    with written_beside(Path(sys.argv[1])) as unfinished:
+    with written_beside(target) as unfinished:
         unfinished.write_text(text)
 
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser("python -m examples.truth.layer", description=__doc__)
+    parser.add_argument("target", type=Path, help="the CSV to write")
+    main(parser.parse_args().target)

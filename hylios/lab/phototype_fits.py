@@ -3,6 +3,7 @@
 Run it as `python -m hylios.lab.phototype_fits`.
 """
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -66,4 +67,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m hylios.lab.phototype_fits", description=__doc__).parse_args()
     sys.exit(main())

@@ -3,6 +3,7 @@
 Run it as `python -m hylios.lab.site_fits`. What was measured is in `body_sites.csv`.
 """
 
+import argparse
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -145,4 +146,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser("python -m hylios.lab.site_fits", description=__doc__).parse_args()
     sys.exit(main())

@@ -3,6 +3,7 @@
 `python -m hylios.transport.survival_table` writes it anew, in about 5 minutes on one core.
 """
 
+import argparse
 import os
 from pathlib import Path
 
@@ -73,6 +74,9 @@ def write(path: Path = TABLE) -> None:
 
 
 if __name__ == "__main__":
+    argparse.ArgumentParser(
+        "python -m hylios.transport.survival_table", description=__doc__
+    ).parse_args()
     print(f"{ASPECTS} x {RATIOS} entries of {STREAMS * PATHS} paths each")
     write()
     print(f"written to {TABLE}")

@@ -10,7 +10,10 @@ COMMANDS = [
     pytest.param("gallery", marks=pytest.mark.slow),
     *(
         pytest.param(command, marks=pytest.mark.slow)
-        for command in ("bench", "simplifications", "simplifications.quadrature")
+        for command in (
+            *("bench", "bench_blender", "simplifications", "simplifications.quadrature"),
+            *("truth.film_fit", "truth.layer"),
+        )
     ),
 ]
 """Those without a parser of options that their other tests use."""

@@ -129,3 +129,12 @@ def test_nodes_are_switched_on_only_where_there_are_none():
             text = (ROOT / name).read_text(encoding="utf-8")
             for before in re.findall(r"(.*)\n *\w+\.use_nodes = True", text):
                 assert "node_tree is None:" in before, name
+
+
+def test_what_runs_reads_its_arguments():
+    """So that --help says what it does, in place of doing it."""
+    for folder in ("blender_addon", "examples", "hylios", "lut_builder", "tools"):
+        for path in (ROOT / folder).rglob("*.py"):
+            text = path.read_text(encoding="utf-8")
+            if 'if __name__ == "__main__":' in text:
+                assert ".parse_args(" in text, path.relative_to(ROOT)

@@ -116,7 +116,7 @@ def contents(tree) -> tuple:
         )
         for node in tree.nodes
     ]
-    return nodes, links(tree), dict(tree.items())
+    return nodes, sorted(links(tree)), dict(tree.items())
 
 
 def links(tree) -> list:

@@ -159,6 +159,9 @@ GERMAN = {
     "No time is given as Sun:": "Keine Zeit als Sonne angegeben:",
     "its UVA is not known": "ihr UVA ist unbekannt",
     "Orange: lightness, red: redness": "Orange: Helligkeit, rot: Röte",
+    "Upright lines: days": "Senkrechte Linien: Tage",
+    "Upright lines: weeks": "Senkrechte Linien: Wochen",
+    "Upright lines: 4 weeks": "Senkrechte Linien: 4 Wochen",
     "Apply Tan cannot show it:": "Anwenden geht nicht:",
     "No tan that can be seen": "Keine sichtbare Bräune",
     "Darkest on day {darkest:.0f},": "Am dunkelsten an Tag {darkest:.0f},",
@@ -184,8 +187,11 @@ GERMAN = {
     "choose another one": "eine andere wählen",
     "No material: a new skin is made": "Kein Material: neue Haut",
     "Remove Tan to change this": "Erst die Bräune entfernen",
-    "Light spreads as in the skin type;": "Licht läuft wie im Hauttyp;",
-    "exactly, in a table built anew:": "genau in einer neuen Tabelle:",
+    "Light spreads as in the type's skin.": "Licht läuft wie im Hauttyp.",
+    "For a table of this very skin:": "Für eine Tabelle dieser Haut:",
+    "A recoloured material": "Ein umgefärbtes Material",
+    "shows no film, a new one does": "zeigt keinen, ein neues schon",
+    "After the last day: no effect": "Nach dem letzten Tag: ohne Wirkung",
 }
 """German by English. What Blender itself translates need not be here."""
 

@@ -219,6 +219,13 @@ def _peeling_words(curve: Curve) -> tuple[str, ...]:
     return (Line("Peels on days {first:.0f}-{last:.0f}", first=first, last=last),)
 
 
+GRIDS = (
+    (7.0, 1.0, "Upright lines: days"),
+    (70.0, 7.0, "Upright lines: weeks"),
+    (np.inf, 28.0, "Upright lines: 4 weeks"),
+)
+"""Days of a tan at most, days between the upright lines of its picture, and what these are."""
+
 WIDTH, HEIGHT, STRIP = 240, 200, 36
 """Pixels of the picture, and of the colours along its lower edge."""
 
@@ -227,6 +234,18 @@ LINE = np.array([0.95, 0.6, 0.3, 1.0])
 RED_LINE = np.array([0.95, 0.25, 0.3, 1.0])
 GRID = np.array([0.5, 0.5, 0.5, 0.45])
 """Colours that stand out from a dark and from a light theme; sRGB and opacity."""
+
+
+def key(curve: Curve) -> tuple[str, ...]:
+    """Short lines on what the picture's lines are."""
+    colours = ("Orange: lightness, red: redness",) if shows_redness(curve) else ()
+    return (*colours, _grid(curve)[1])
+
+
+def _grid(curve: Curve) -> tuple[float, str]:
+    """Days between the picture's upright lines, few enough to tell apart; what they are."""
+    span = curve.days[-1] - curve.days[0]
+    return next((apart, name) for most, apart, name in GRIDS if span <= most)
 
 
 def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
@@ -248,15 +267,17 @@ def picture(curve: Curve, shown: NDArray) -> NDArray[np.float32]:
     darkness = curve.untanned - curve.lightness
     span = max(darkness.max(), curve.redness.max(), 1.0)
     pixels[high - 1 : high + 1] = GRID  # skin without sun
-    for week in np.arange(np.ceil(curve.days[0] / 7.0) * 7.0, curve.days[-1], 7.0):
-        column = (week - curve.days[0]) / (curve.days[-1] - curve.days[0]) * (WIDTH - 1)
+    apart, _ = _grid(curve)
+    for day in np.arange(np.ceil(curve.days[0] / apart) * apart, curve.days[-1], apart):
+        column = (day - curve.days[0]) / (curve.days[-1] - curve.days[0]) * (WIDTH - 1)
         pixels[low:high, int(column)] = GRID
-    rows = np.arange(HEIGHT)[:, None]
+    rows = np.arange(low - 1, high + 1)[:, None]
     lines = [(RED_LINE, low, curve.redness / span)] if shows_redness(curve) else []
     for colour, start, shares in (*lines, (LINE, high, -darkness / span)):
         own = np.interp(columns, np.arange(len(curve.days)), shares)
         height = start + own * (high - low)
         slope = np.hypot(1.0, np.gradient(height))
         covered = np.clip(1.8 - abs(rows - height) / slope, 0.0, 1.0)[..., None]
-        pixels = pixels * (1.0 - covered) + colour * covered
+        part = pixels[low - 1 : high + 1]
+        part[:] = part * (1.0 - covered) + colour * covered
     return pixels.astype(np.float32)

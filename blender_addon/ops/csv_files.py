@@ -88,14 +88,18 @@ class SKIN_TAN_OT_export_schedule(_SavesCsv, bpy.types.Operator):  # noqa: N801
         return csv_text(obj.name, settings_of(obj).values())
 
 
+REPLACE = bpy.props.BoolProperty(
+    name="Replace",
+    description="Put these in place of the times in the sun that are listed. Off: add them",
+    default=True,
+)
+"""Of operators that read exposures; last in both, since Blender shows properties in their order."""
+
+
 class _Reads(ImportHelper):
     """An operator that reads the active object's exposures from a file."""
 
-    replace: bpy.props.BoolProperty(
-        name="Replace",
-        description="Put these in place of the times in the sun that are listed. Off: add them",
-        default=True,
-    )
+    replace: bool
 
     @classmethod
     def poll(cls, context):
@@ -140,6 +144,7 @@ class SKIN_TAN_OT_import_exposures(_Reads, bpy.types.Operator):  # noqa: N801
     )
     bl_options = {"REGISTER", "UNDO"}
     filter_glob: bpy.props.StringProperty(default="*.csv;*.txt", options={"HIDDEN"})
+    replace: REPLACE
 
     def read(self, path: Path) -> ReadSchedule:
         return read_exposures(path)
@@ -190,6 +195,7 @@ class SKIN_TAN_OT_import_weather(_Reads, bpy.types.Operator):  # noqa: N801
         default=USUAL_HOURS[1],
         **HOUR_OF_DAY,
     )
+    replace: REPLACE
 
     def read(self, path: Path) -> ReadSchedule:
         return weather_exposures(

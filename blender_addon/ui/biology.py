@@ -18,6 +18,6 @@ def draw_biology(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
         return
     layout.operator("skin_tan.reset_biology", icon="LOOP_BACK")
     draw_lines(
-        layout, ("Light spreads as in the skin type;", "exactly, in a table built anew:"), "INFO"
+        layout, ("Light spreads as in the type's skin.", "For a table of this very skin:"), "INFO"
     )
     layout.operator("skin_tan.copy_build_command", icon="COPYDOWN")

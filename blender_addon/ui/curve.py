@@ -8,7 +8,6 @@ import bpy.utils.previews
 from hylios.errors import InputError
 
 from ..model import curve
-from ..model.lines import Line
 from ..model.settings import TanSettings
 from ..props import SkinTanSettings
 from .lines import draw_lines
@@ -36,8 +35,7 @@ def _drawn(values: TanSettings, stamp: tuple[int, int]) -> tuple[tuple[str, ...]
     picture = _picture()
     picture.image_size = pixels.shape[1::-1]
     picture.image_pixels_float = pixels.ravel().tolist()
-    key = (Line("Orange: lightness, red: redness"),) if curve.shows_redness(tan) else ()
-    return (*key, *curve.words(tan)), picture.icon_id
+    return (*curve.key(tan), *curve.words(tan)), picture.icon_id
 
 
 @functools.cache

@@ -99,6 +99,8 @@ def draw_exposures(
     if exposure.own_mask:
         draw_mask(layout, obj, exposure.mask, context)
     draw_lines(layout, *dose_lines(settings, Exposure.of(exposure)))
+    if exposure.day > settings.last_day:
+        draw_lines(layout, ("After the last day: no effect",), "INFO")
     blisters = blister_lines(settings)
     if blisters:
         draw_lines(layout, blisters, "ERROR")

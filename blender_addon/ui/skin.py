@@ -10,6 +10,7 @@ from ..model import summary
 from ..model.catalogue import FILE
 from ..model.lines import Line
 from ..props import SkinTanSettings, settings_of
+from ..scene import recolour
 from .lines import draw_lines
 from .masks import draw_mask
 from .swatches import draw_types
@@ -53,7 +54,19 @@ def draw_film(
     settings = settings_of(obj)
     layout.prop(settings, "film")
     if settings.film != "NONE":
+        if _is_recoloured(obj):
+            lines = Line("A recoloured material"), Line("shows no film, a new one does")
+            draw_lines(layout, lines, "INFO")
         draw_mask(layout, obj, settings.film_mask, context, "No mask: it lies everywhere")
+
+
+def _is_recoloured(obj: bpy.types.Object) -> bool:
+    """Whether a material of an artist's own shows an object's tan, or is to by Apply."""
+    settings = settings_of(obj)
+    shown = [slot.material for slot in obj.material_slots if slot.material]
+    if settings.group is None:
+        return bool(shown) and not settings.new_material
+    return any(recolour.is_in(material) for material in shown)
 
 
 def skin_lines(settings: SkinTanSettings) -> tuple[tuple[str, ...], str]:

@@ -70,3 +70,23 @@ def test_the_picture_shows_the_colours_and_the_line():
     line = np.abs(pixels - curve.LINE.astype(np.float32)).sum(axis=-1).argmin(axis=0)
     darkest = int(made.darkest / (len(made.days) - 1) * (curve.WIDTH - 1))
     assert abs(int(line.argmin()) - darkest) < 0.1 * curve.WIDTH
+
+
+@pytest.mark.parametrize(
+    ("last_day", "lines", "name"), [(5.0, 5, "days"), (30.0, 5, "weeks"), (365.0, 14, "4 weeks")]
+)
+def test_upright_lines_are_few_enough_to_tell_apart(last_day, lines, name):
+    made = curve.curve_of(replace(SETTINGS, last_day=last_day))
+    assert curve.key(made)[-1] == f"Upright lines: {name}"
+    row = curve.picture(made, made.colours)[curve.STRIP + curve.MARGIN + 1]
+    assert np.isclose(row, curve.GRID).all(axis=1).sum() in (lines, lines - 1)  # one may be hidden
+
+
+def test_lines_leave_the_colours_alone():
+    """A steep one, as many burns over a year have, was drawn into them."""
+    burns = tuple(replace(EXPOSURE, day=day, dose=30.0) for day in range(0, 300, 30))
+    settings = replace(SETTINGS, exposures=burns, last_day=365.0, redness=True)
+    made = curve.curve_of(settings)
+    pixels = curve.picture(made, made.colours)
+    np.testing.assert_array_equal(pixels[: curve.STRIP], pixels[:1].repeat(curve.STRIP, axis=0))
+    assert not pixels[curve.HEIGHT - curve.MARGIN + 1 :].any()

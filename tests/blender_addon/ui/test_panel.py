@@ -354,3 +354,20 @@ def test_what_waits_for_apply_is_told(table_path):
     assert waits in drawn()
     settings.live, settings.undone = False, ""
     assert waits in drawn()
+
+
+def test_what_has_no_effect_is_told(table_path):
+    settings = tan_object(table_path).skin_tan
+    film, late = "A recoloured material", "After the last day: no effect"
+    settings.film = "WATER"
+    assert not {film, late} & set(drawn())
+    wear(bpy.context.object, [plain("skin")])
+    settings.exposures[0].day = 31.0
+    assert {film, late} <= set(drawn())
+    bpy.ops.skin_tan.apply()
+    assert film in drawn()
+    bpy.ops.skin_tan.remove()
+    settings.new_material, settings.last_day = True, 40.0
+    assert not {film, late} & set(drawn())
+    bpy.ops.skin_tan.apply()
+    assert film not in drawn()

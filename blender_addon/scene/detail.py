@@ -47,7 +47,7 @@ LINE, PORE = 0.09, (0.62, 0.8)
 LINE_MILLIMETRES, PORE_MILLIMETRES = 0.04, 0.045
 """Depth of a line and of a pore, by eye."""
 
-MELANIN_RANGE, BLOOD_RANGE = (0.88, 1.14), (0.6, 1.6)
+MELANIN_RANGE, BLOOD_RANGE = (0.94, 1.07), (0.7, 1.42)
 """Factors from the palest to the darkest and from the palest to the most flushed blotch."""
 
 

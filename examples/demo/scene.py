@@ -1,8 +1,9 @@
 """The scene: a subject with its mask as a mesh object, camera, lights and backdrop."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import bmesh
 import bpy
@@ -121,10 +122,17 @@ def stage(subject: Subject, lamps: Sequence[Lamp] = LAMPS) -> bpy.types.Object:
     return obj
 
 
-def subdivided(subject: Subject) -> bpy.types.Mesh:
-    """The subject's mesh by Catmull and Clark, with finer faces where the cloth's edge was."""
+def subdivided(
+    subject: Subject, shares: Mapping[str, np.ndarray] = MappingProxyType({})
+) -> bpy.types.Mesh:
+    """The subject's mesh by Catmull and Clark, with finer faces where the cloth's edge was.
+
+    `shares` has attributes (V,) of the subject's vertices that the mesh keeps.
+    """
     mesh = bpy.data.meshes.new(subject.name)
     mesh.from_pydata(subject.mesh.vertices, [], subject.mesh.faces)
+    for name, share in shares.items():
+        add_attribute(mesh, name, share)
     obj = bpy.data.objects.new(subject.name, mesh)
     bpy.context.scene.collection.objects.link(obj)
     modifier = obj.modifiers.new("Subdivision", "SUBSURF")
@@ -148,9 +156,13 @@ def subdivided(subject: Subject) -> bpy.types.Mesh:
 
 def add_mask(mesh: bpy.types.Mesh, cloth: swimsuit.Field) -> None:
     """Store the share of the dose that reached each vertex."""
-    share = swimsuit.share_of_dose(_edge_distance(mesh, cloth))
-    mesh.attributes.new(MASK, "FLOAT", "POINT")
-    mesh.attributes[MASK].data.foreach_set("value", share.astype(np.float32))
+    add_attribute(mesh, MASK, swimsuit.share_of_dose(_edge_distance(mesh, cloth)))
+
+
+def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
+    """Store numbers (V,) of a mesh's vertices."""
+    mesh.attributes.new(name, "FLOAT", "POINT")
+    mesh.attributes[name].data.foreach_set("value", values.astype(np.float32))
 
 
 def make_even(obj: bpy.types.Object) -> None:

@@ -19,8 +19,13 @@ SHOULDER_X, SHOULDER_Y = 0.080, 0.008
 
 def share_of_dose(distance: np.ndarray) -> np.ndarray:
     """Share of the dose, 0 to 1, at a signed distance in metres from the cloth's edge."""
-    across = np.clip(distance / EDGE_WIDTH + 0.5, 0.0, 1.0)
-    return across * across * (3.0 - 2.0 * across)
+    return smooth_step(distance / EDGE_WIDTH + 0.5)
+
+
+def smooth_step(values: np.ndarray) -> np.ndarray:
+    """From 0 where values are at most 0 to 1 where they are at least 1, smooth at both ends."""
+    cut = np.clip(values, 0.0, 1.0)
+    return cut * cut * (3.0 - 2.0 * cut)
 
 
 def distance_to_edge(cloth: Field, points: np.ndarray, normals: np.ndarray) -> np.ndarray:

@@ -30,11 +30,13 @@ def gallery(arguments: argparse.Namespace) -> None:
     from examples.demo.swimsuit import one_piece
     from examples.demo.tan_lines import OUT
     from examples.figures.render_sheet import Panel, sheet
-    from examples.gallery import stage
+    from examples.gallery import face, stage
     from hylios.errors import InputError
 
     try:
-        body = read_body(fetch_wheel(OUT / ".cache"), EYES_CLOSED)
+        wheel = fetch_wheel(OUT / ".cache")
+        body = read_body(wheel, EYES_CLOSED)
+        regions = face.shares(wheel, len(body.vertices))
     except BodyUnavailableError as error:
         raise InputError(f"{error} The gallery needs its body.") from error
     subject = Subject("Body", body, 2, one_piece, (0.0, 0.0, 1.27), 0.76, 25.0)
@@ -47,7 +49,7 @@ def gallery(arguments: argparse.Namespace) -> None:
         tqdm(total=count * len(arguments.skins), desc="gallery", unit="picture") as bar,
     ):
         for skin in arguments.skins:
-            stage.tanned(subject, skin)
+            stage.tanned(subject, skin, regions)
             file = Path(scratch) / "picture.png"
             for place, far, light, picture in stage.pictures(
                 arguments.samples, arguments.size, file
@@ -56,7 +58,7 @@ def gallery(arguments: argparse.Namespace) -> None:
                 rows[place].setdefault(skin, []).append(panel)
                 bar.update()
     for place, by_skin in rows.items():
-        heading = f"{place.capitalize()}, day {shots.SHOWN_DAY} after {shots.SUN:g} MMD"
+        heading = f"{place.capitalize()}, after a week in the sun"
         sheet(heading, list(by_skin.values()), arguments.out / f"{place}.png")
     print(f"{len(rows)} sheets in {arguments.out.resolve()}")
 

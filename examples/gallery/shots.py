@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 SKINS = ("I", "III", "VI")
 
-SUN = 5.0
-"""Minimal tanning doses, on day 0, so that all skins tan alike."""
+SUN, SUNNY_DAYS = 1.0, 7
+"""Minimal tanning doses of a day, so that all skins tan alike, and on how many days."""
 
 SHOWN_DAY, LAST_DAY = 8, 30
 

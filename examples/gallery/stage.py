@@ -1,6 +1,6 @@
 """One tanned body in Blender, and pictures of its places in some light."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import bpy
@@ -14,19 +14,27 @@ from examples.gallery import shots
 LAMP_DISTANCE = 1.0
 
 
-def tanned(subject: scene.Subject, skin: str) -> bpy.types.Object:
-    """The subject in an empty scene, after its day in the sun, with a new material's own look."""
+def tanned(
+    subject: scene.Subject, skin: str, regions: Mapping[str, np.ndarray]
+) -> bpy.types.Object:
+    """The subject in an empty scene, after days in the sun, with a new material's own look.
+
+    `regions` has, by their kinds, how far the subject's vertices (V,) lie in them.
+    """
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     shown = bpy.context.scene
-    obj = bpy.data.objects.new(subject.name, scene.subdivided(subject))
+    obj = bpy.data.objects.new(subject.name, scene.subdivided(subject, regions))
     shown.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     scene.add_mask(obj.data, subject.cloth)
     settings = obj.skin_tan
     settings.skin, settings.mask_attribute = skin, scene.MASK
-    settings.kinetics, settings.redness = "THESIS", False
-    exposure = settings.exposures.add()
-    exposure.unit, exposure.multiple = "MMD", shots.SUN
+    for kind in regions:
+        region = settings.regions.add()
+        region.kind, region.mask.source = kind, kind
+    for day in range(shots.SUNNY_DAYS):
+        exposure = settings.exposures.add()
+        exposure.day, exposure.unit, exposure.multiple = day, "MMD", shots.SUN
     settings.first_day, settings.last_day = 0.0, shots.LAST_DAY
     settings.first_frame, settings.last_frame = 0, shots.LAST_DAY
     bpy.ops.skin_tan.apply()

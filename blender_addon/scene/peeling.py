@@ -63,9 +63,8 @@ LINKS: tuple[Link, ...] = (
 
 STAND_INS = {
     "peel": StandIn("states", "Color", "State", "State"),
-    "peel_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color"),
-    "peel_normal": StandIn("normal", "Vector", 0, "Vector"),
-    "peel_relief": StandIn("peel_normal", "Vector", "Normal", "Normal"),
+    "peel_colour": stand_ins.COLOUR["peel_colour"],
+    **stand_ins.NORMAL,
 }
 OF_SEVERAL = StandIn("basis", "State", "State", "State")
 """What the first stands in for where a tan has several masks."""
@@ -109,8 +108,9 @@ def show(
             node.node_tree = peeling_nodes.shared_group()
         nodes.link(group, ROLES, LINKS)
         is_several = any(nodes.of_role(group, "basis"))
-        for role, plan in STAND_INS.items():
-            stand_ins.put_in(group, role, OF_SEVERAL if role == "peel" and is_several else plan)
+        stand_ins.put_in(group, {"peel": OF_SEVERAL if is_several else STAND_INS["peel"]})
+        for plans in (stand_ins.COLOUR, stand_ins.NORMAL):
+            stand_ins.put_in(group, plans)
     tree = None
     if masks:
         name = f"Skin Tan Peeling Masks {obj.name}"

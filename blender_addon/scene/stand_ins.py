@@ -32,21 +32,41 @@ class StandIn:
     but: str = ""
 
 
-def put_in(group: Any, role: str, plan: StandIn) -> None:
-    """Put a node into the links from what it replaces, where it is not in them yet."""
-    node = next(nodes.of_role(group, role), None)
-    replaced = next(nodes.of_role(group, plan.role), None)
-    if node is None or replaced is None:
+COLOUR = {
+    "peel_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color"),
+    "view_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color", "ratio"),
+}
+NORMAL = {
+    "peel_normal": StandIn("normal", "Vector", 0, "Vector"),
+    "peel_relief": StandIn("normal", "Vector", "Normal", "Normal"),
+}
+"""Nodes by role that stand in for one output, in the order in which they follow one another."""
+
+
+def put_in(group: Any, plans: Mapping[str, StandIn]) -> None:
+    """Put the nodes of some roles that there are into the links from the one output they replace.
+
+    They follow one another as the plans do, whichever of them and of what they lead to came first.
+    """
+    present = [(next(nodes.of_role(group, role), None), plan) for role, plan in plans.items()]
+    present = [(node, plan) for node, plan in present if node is not None]
+    replaced = next((node for _, plan in present for node in nodes.of_role(group, plan.role)), None)
+    if replaced is None:
         return
-    start = nodes.find_output(replaced, plan.output)
+    starts = [nodes.find_output(replaced, present[0][1].output)]
+    starts += [nodes.find_output(node, plan.gives) for node, plan in present]
+    kept = [nodes.find_input(node, plan.input) for node, plan in present]
     ends = [
-        link.to_socket
-        for link in start.links
-        if link.to_node != node and (not plan.but or nodes.role_of(link.to_node) != plan.but)
+        link.to_socket for start in starts for link in start.links if link.to_socket not in kept
     ]
+    for start, end in zip(starts, kept, strict=False):
+        group.links.new(start, end)
     for end in ends:
-        group.links.new(nodes.find_output(node, plan.gives), end)
-    group.links.new(start, nodes.find_input(node, plan.input))
+        role = nodes.role_of(end.node)
+        led = [
+            start for start, (_, plan) in zip(starts[1:], present, strict=True) if plan.but != role
+        ]
+        group.links.new([starts[0], *led][-1], end)
 
 
 def take_out(group: Any, plans: Mapping[str, StandIn], roles: Iterable[str]) -> None:

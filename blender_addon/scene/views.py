@@ -72,7 +72,7 @@ SAMPLED_AS = {"view_thin": "colour", "view_thick": "thick_colour"}
 """Roles of images of a band, and those whose place in the look is theirs."""
 
 STAND_INS = {
-    "view_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color", "ratio"),
+    "view_colour": stand_ins.COLOUR["view_colour"],
     "view_near": StandIn("near", "Color", 0, "Value"),
     "view_width": StandIn("width", "Color", 0, "Value"),
     "view_angle": StandIn("slope", "Vector", 0, "Vector"),
@@ -160,7 +160,7 @@ def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None
     for role, sampled in SAMPLED_AS.items():
         _sample_as(group, role, sampled, changes)
     for role, plan in STAND_INS.items():
-        stand_ins.put_in(group, role, plan)
+        stand_ins.put_in(group, stand_ins.COLOUR if role == "view_colour" else {role: plan})
     for role, socket, value in (
         ("view_near", 1, _unit_vector(band.nearest)),
         ("view_width", 1, _unit_vector(band.nearest)),

@@ -142,6 +142,37 @@ def test_groups_that_were_deleted_by_hand_come_back(table_path):
         assert links_of(obj) == expected
 
 
+def test_film_peeling_and_view_lead_to_one_another_in_whatever_order_they_came(table_path):
+    """A film lies on flakes and follows their relief; a view shows its band in their place."""
+    values = {
+        "film": ("WATER", "NONE"),
+        "peeling": (True, False),
+        "view": ("NM365", "VISIBLE"),
+    }
+
+    def turn(obj, names: str, number: int) -> list:
+        for name in names.split():
+            settings = bpy.context.scene.skin_tan if name == "view" else obj.skin_tan
+            setattr(settings, name, values[name][number])
+            apply(obj)
+        return links_of(obj)
+
+    seen = []
+    for order in ("film peeling view", "peeling view film", "view film peeling"):
+        obj = tan_object(table_path, SHARES, dose=5.0 * MED)
+        apply(obj)
+        all_on = turn(obj, order, 0)
+        again = turn(obj, order.split()[0], 1) and turn(obj, order.split()[0], 0)
+        seen.append((all_on, again, turn(obj, "view", 1), turn(obj, "peeling", 1)))
+        bpy.data.objects.remove(obj)
+    assert all(both == seen[0] for both in seen)
+    in_view, again, visible, _ = seen[0]
+    assert in_view == again
+    for labels in (("Flakes", "Band for colour"), ("Relief of flakes", "Normal of the skin")):
+        assert labels in {(start, end) for start, _, end, _ in in_view}
+    assert ("Flakes", "Change by a film") in {(start, end) for start, _, end, _ in visible}
+
+
 def test_several_masks_views_and_removal_with_it(table_path):
     """In any order, and Remove Tan leaves no group and no image."""
     obj = burnt_row(table_path)

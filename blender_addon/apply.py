@@ -86,7 +86,7 @@ def apply_tan(
         _show_film(obj, skin, sampled, changes)
         remember_source(skin.group, settings, values, tan, changes)
         attached = skin.attach(changes)
-        own_colour.tell(obj, skin.group, changes, is_on=sampled.own_image is not None)
+        told += own_colour.tell(obj, skin.group, changes, is_on=sampled.own_image is not None)
         in_view = keep_view(skin.group, skin.trees(), changes)
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)

@@ -14,7 +14,9 @@ from .props import settings_of
 from .scene import images, nodes, own_colour, recolour, slots
 from .scene import skin as skins
 from .scene.changes import Changes
+from .scene.ownership import names
 from .scene.painted import is_like_skin, painted_colour, weighted_median
+from .scene.trees import tree_of
 
 
 def painted_skin(obj: bpy.types.Object) -> NDArray[np.float64] | None:
@@ -49,13 +51,24 @@ def prepare(
 
 def tell(
     obj: bpy.types.Object, group: bpy.types.NodeTree, changes: Changes, *, is_on: bool
-) -> None:
-    """Tell a tan's group the colours that an object's materials multiply, or no longer."""
-    for tree in list(slots.shown_trees(obj, group)):
-        if is_on:
-            recolour.tell_painted(tree, changes)
-        else:
+) -> list[str]:
+    """Tell a tan's group the colours that an object's materials multiply, or no longer.
+
+    Returns a sentence where one is told only as it is at this frame.
+    """
+    trees = list(slots.shown_trees(obj, group))
+    if not is_on:
+        for tree in trees:
             recolour.stop_telling(tree, changes)
+        return []
+    owners = {tree_of(material): material for material in slots.materials_of(obj)}
+    moved = [owners.get(tree, tree) for tree in trees if recolour.tell_painted(tree, changes)]
+    if not moved:
+        return []
+    return [
+        f"A painted colour in {names(moved)} is animated, and skin tans by what it is at this "
+        "frame; put the keys on an RGB node that is linked to Base Color, and the tan follows."
+    ]
 
 
 def _take_usual(obj: bpy.types.Object, look: Look, changes: Changes) -> list[str]:

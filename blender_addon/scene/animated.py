@@ -51,6 +51,12 @@ def move(tree: Any, start: Any, end: Any, changes: Changes) -> bool:
     return bool(curves)
 
 
+def is_moved(tree: Any, end: Any) -> bool:
+    """Whether keys or drivers move an input of a tree."""
+    animation, path = tree.animation_data, _path(end)
+    return animation is not None and bool(_curves(animation, _keyed(animation, path), path))
+
+
 def move_back(tree: Any, start: Any, end: Any) -> None:
     """The same at the end, when nothing can fail; an action as it was before comes back."""
     former, new = _path(start), _path(end)

@@ -205,18 +205,22 @@ def show_painted(tree: Any) -> None:
         tree.nodes.remove(node)
 
 
-def tell_painted(tree: Any, changes: Changes) -> None:
+def tell_painted(tree: Any, changes: Changes) -> bool:
     """Tell the tan's group in a tree the colours that it multiplies.
 
-    What an artist has linked to the inputs for that, or set there, stays.
+    What an artist has linked to the inputs for that, or set there, stays. Returns whether such a
+    colour is animated, which is told as it is at this frame; one that is linked is followed.
     """
     changes.may_add_to(tree.nodes)
     changes.may_relink(tree)
     tans: dict[Any, Any] = {}
+    is_animated = False
     for factor in inserted(tree, FACTOR):
         tan = _tan_of(factor)
         if tan is None or PAINTED_COLOUR not in tan.inputs:
             continue
+        given = factor.inputs[0]
+        is_animated |= not given.is_linked and animated.is_moved(tree, given)
         colour = _painted(factor)
         if colour not in tans:
             is_taken = tan.name in {other.name for other in tans.values()}
@@ -224,6 +228,7 @@ def tell_painted(tree: Any, changes: Changes) -> None:
         if tans[colour] != tan:
             _show_by(tree, factor, tans[colour])
         _tell(tree, tans[colour], factor, changes)
+    return is_animated
 
 
 def stop_telling(tree: Any, changes: Changes) -> None:

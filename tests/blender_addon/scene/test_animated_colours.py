@@ -101,6 +101,28 @@ def test_an_animated_colour_goes_on_and_comes_back(table_path, make, tmp_path, c
     assert all_of_file() == before
 
 
+@pytest.mark.parametrize("make", [keyed, driven, in_strips, plain])
+def test_by_its_own_colour_skin_follows_one_that_is_linked_and_says_where_it_cannot(
+    table_path, make, capfd
+):
+    obj = body(table_path, [make("skin")])
+    obj.skin_tan.own_colour = True
+    apply(obj)
+    said = "A painted colour in 'skin' is animated" in capfd.readouterr().out
+    assert said == (make is not plain)
+    (tan,) = recolour.inserted(bpy.data.materials["skin"].node_tree, recolour.TAN)
+    assert not tan.inputs[recolour.PAINTED_COLOUR].is_linked
+    bpy.ops.skin_tan.remove()
+    tree = bpy.data.materials["skin"].node_tree
+    colour = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    tree.links.new(colour, colour_of(bpy.data.materials["skin"]))
+    colour.keyframe_insert("default_value", frame=1)
+    apply(obj)
+    assert "is animated" not in capfd.readouterr().out
+    (tan,) = recolour.inserted(tree, recolour.TAN)
+    assert tan.inputs[recolour.PAINTED_COLOUR].links[0].from_socket == colour
+
+
 def test_keys_go_on_in_a_saved_file(table_path, tmp_path):
     apply(body(table_path, [keyed("skin")]))
     path = str(tmp_path / "keyed.blend")

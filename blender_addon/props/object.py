@@ -221,7 +221,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     """The mask's source, as scripts and files of version 0.1.0 set it."""
     first_day: FloatProperty(
         name="First Day",
-        description="Day of the tan at the first frame",
+        description="When the first frame is, in days from the start of the tan",
         min=0.0,
         max=LAST_DAY_LIMIT,
         step=100,
@@ -229,7 +229,7 @@ class SkinTanSettings(bpy.types.PropertyGroup):
     )
     last_day: FloatProperty(
         name="Last Day",
-        description="Day of the tan at the last frame",
+        description="When the last frame is, in days from the start of the tan",
         default=30.0,
         min=0.0,
         max=LAST_DAY_LIMIT,

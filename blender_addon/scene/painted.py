@@ -1,7 +1,7 @@
 """The colour that an artist gave to a material, estimated without rendering."""
 
 from collections.abc import Iterator
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import bpy
 import numpy as np
@@ -17,8 +17,18 @@ SIDE = 256
 MOST_CORNERS = 20000
 """Corners of faces at which an image is looked up."""
 
+MOST_MAPPINGS = 8
+"""Nodes between a UV map and a texture that are looked through; links may run in a circle."""
+
 RED_OVER_GREEN, GREEN_OVER_BLUE, RED = (1.1, 5.0), (0.95, 6.0), (0.015, 0.98)
 """Ranges of linear colours of human skin: of the types I to VI, pale to tanned, with a margin."""
+
+
+class Texture(NamedTuple):
+    """An image, and the name of the UV map by which it lies on a mesh; empty for the usual one."""
+
+    image: bpy.types.Image
+    uv_map: str
 
 
 def is_like_skin(colour: NDArray[np.float64] | None) -> bool:
@@ -38,24 +48,31 @@ def painted_colour(
 ) -> NDArray[np.float64] | None:
     """Median linear colour (3,) of a material over the area of an object's faces that show it.
 
-    None where neither an image nor a plain colour leads to its shaders, or no file is there.
+    None where neither an image nor a plain colour nor a colour attribute leads to its shaders, or
+    no file is there.
     """
+    attributes: list[str] = []
     for path, _, end in shaders(material):
-        source = _source(material, path, end)
-        if isinstance(source, bpy.types.Image):
-            source = _median(source, *_places(obj, material))
+        sources = list(_sources(material, path, end))
+        attributes += [source for source in sources if isinstance(source, str)]
+        source = next((source for source in sources if not isinstance(source, str)), None)
+        if isinstance(source, Texture):
+            source = _median(source.image, *_places(obj, material, source.uv_map))
         if source is not None:
             return source
-    return None
+    colours = (_of_attribute(obj, material, name) for name in attributes)
+    return next((colour for colour in colours if is_like_skin(colour)), None)  # else a mask
 
 
 def painted_images(obj: bpy.types.Object) -> set[bpy.types.Image]:
     """Images that are the colour of an object's materials."""
     materials = [slot.material for slot in obj.material_slots if slot.material]
     sources = [
-        _source(material, path, end) for material in materials for path, _, end in shaders(material)
+        next((source for source in _sources(material, path, end) if not isinstance(source, str)), 0)
+        for material in materials
+        for path, _, end in shaders(material)
     ]
-    return {source for source in sources if isinstance(source, bpy.types.Image)}
+    return {source.image for source in sources if isinstance(source, Texture)}
 
 
 def painted_attributes(obj: bpy.types.Object) -> set[str]:
@@ -71,16 +88,10 @@ def painted_attributes(obj: bpy.types.Object) -> set[str]:
     return {source or usual for source in sources if isinstance(source, str)}
 
 
-def _source(material: bpy.types.Material, path: tuple[Any, ...], end: Any) -> Any:
-    """The image or the colour (3,) that leads to an input, the nearest first."""
-    sources = _sources(material, path, end)
-    return next((source for source in sources if not isinstance(source, str)), None)
-
-
 def _sources(
     material: bpy.types.Material, path: tuple[Any, ...], end: Any
-) -> Iterator[bpy.types.Image | NDArray[np.float64] | str]:
-    """What leads to an input, the nearest first: images, colours (3,), names of attributes.
+) -> Iterator[Texture | NDArray[np.float64] | str]:
+    """What leads to an input, the nearest first: textures, colours (3,), names of attributes.
 
     The name of the attribute that the mesh shows by default is empty.
     """
@@ -106,7 +117,7 @@ def _sources(
             continue
         image, inner = (getattr(node, name, None) for name in ("image", "node_tree"))
         if node.bl_idname == "ShaderNodeTexImage" and image and _is_colour(image):
-            yield image
+            yield Texture(image, _uv_map(node))
         if node.bl_idname == "ShaderNodeRGB":
             yield np.array(node.outputs[0].default_value[:3], dtype=float)
         if node.bl_idname == "ShaderNodeVertexColor":
@@ -138,28 +149,70 @@ def _is_colour(image: bpy.types.Image) -> bool:
     return not cast(Any, image.colorspace_settings).is_data
 
 
+def _uv_map(node: Any) -> str:
+    """Name of the UV map that a texture's node is given, maybe through a mapping."""
+    for _ in range(MOST_MAPPINGS):
+        end = node.inputs.get("Vector")
+        if end is None or not end.is_linked:
+            break
+        node = end.links[0].from_node
+        if node.bl_idname in ("ShaderNodeUVMap", "ShaderNodeAttribute"):
+            return getattr(node, "uv_map", None) or getattr(node, "attribute_name", "")
+    return ""
+
+
 Places = tuple[NDArray[np.float32] | None, NDArray[np.floating] | None]
 """Texture coordinates (N, 2), and the area of the mesh that each stands for (N,)."""
 
 
-def _places(obj: bpy.types.Object, material: bpy.types.Material) -> Places:
-    """Corners of the faces that show a material."""
+def _places(obj: bpy.types.Object, material: bpy.types.Material, uv_map: str) -> Places:
+    """Corners of the faces that show a material, in a UV map or the one that renders."""
+    layers: Any = cast(Any, obj.data).uv_layers
+    layer = layers.get(uv_map) or next((layer for layer in layers if layer.active_render), None)
+    corners, shares = _corners(obj, material)
+    if layer is None or not len(corners):
+        return None, None
+    places = np.zeros(2 * len(layer.uv), np.float32)
+    layer.uv.foreach_get("vector", places)
+    return places.reshape(-1, 2)[corners], shares
+
+
+def _of_attribute(
+    obj: bpy.types.Object, material: bpy.types.Material, name: str
+) -> NDArray[np.float64] | None:
+    """Median linear colour (3,) of a mesh's colours where it shows a material; "" is the usual."""
     mesh: Any = obj.data
-    if not mesh.uv_layers.active or not mesh.polygons or obj.mode == "EDIT":
-        return None, None  # in Edit Mode a mesh does not tell its texture coordinates
-    count = len(mesh.polygons)
+    attribute = mesh.attributes.get(name or mesh.attributes.default_color_name)
+    corners, shares = _corners(obj, material)
+    if attribute is None or "COLOR" not in attribute.data_type or not len(corners):
+        return None
+    if attribute.domain == "POINT":
+        points = np.zeros(len(mesh.loops), np.int32)
+        mesh.loops.foreach_get("vertex_index", points)
+        corners = points[corners]
+    elif attribute.domain != "CORNER":
+        return None
+    colours = np.zeros(4 * len(attribute.data), np.float32)
+    attribute.data.foreach_get("color", colours)
+    return weighted_median(colours.reshape(-1, 4)[corners, :3].astype(float), shares)
+
+
+def _corners(
+    obj: bpy.types.Object, material: bpy.types.Material
+) -> tuple[NDArray[np.intp], NDArray[np.floating]]:
+    """Corners of the faces that show a material, of many a part, and their areas."""
+    mesh: Any = obj.data
+    count = len(mesh.polygons) if obj.mode != "EDIT" else 0  # there a mesh tells nothing of them
     index, counts = np.zeros(count, np.int32), np.zeros(count, np.int32)
-    mesh.polygons.foreach_get("material_index", index)
-    mesh.polygons.foreach_get("loop_total", counts)
+    if count:
+        mesh.polygons.foreach_get("material_index", index)
+        mesh.polygons.foreach_get("loop_total", counts)
     slots = [slot.slot_index for slot in obj.material_slots if slot.material == material]
-    places = np.zeros(2 * len(mesh.loops), np.float32)
-    mesh.uv_layers.active.uv.foreach_get("vector", places)
     index = index.clip(0, len(obj.material_slots) - 1)
-    shows = np.repeat(np.isin(index, slots), counts)
-    shown = places.reshape(-1, 2)[shows]
-    shares = np.repeat(areas_of_faces(mesh) / counts, counts)[shows]
-    step = max(len(shown) // MOST_CORNERS, 1)
-    return (shown[::step], shares[::step]) if len(shown) else (None, None)
+    shown = np.flatnonzero(np.repeat(np.isin(index, slots), counts))
+    shown = shown[:: max(len(shown) // MOST_CORNERS, 1)]
+    areas = areas_of_faces(mesh)[:count] / counts
+    return shown, np.repeat(areas, counts)[shown]
 
 
 def areas_of_faces(mesh: Any) -> NDArray[np.float32]:

@@ -199,3 +199,44 @@ def test_a_weighted_median_is_that_of_repeated_values():
         np.testing.assert_allclose(
             weighted_median(values, np.zeros(count)), np.median(values, axis=0)
         )
+
+
+@pytest.mark.parametrize("domain", ["POINT", "CORNER"])
+@pytest.mark.parametrize("by", ["ShaderNodeVertexColor", "ShaderNodeAttribute"])
+def test_from_colours_painted_on_the_mesh(body, by, domain):
+    material = artist_skins.plain("Skin")
+    shader = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    node = material.node_tree.nodes.new(by)
+    setattr(node, "layer_name" if by == "ShaderNodeVertexColor" else "attribute_name", "Paint")
+    material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+    body.data.materials.append(material)
+    attribute = body.data.color_attributes.new("Paint", "BYTE_COLOR", domain)
+    attribute.data.foreach_set("color", np.tile([*type_colours()["V"], 1.0], len(attribute.data)))
+    assert bpy.ops.skin_tan.match_texture() == {"FINISHED"}
+    assert body.skin_tan.skin == "V"
+
+
+@pytest.mark.parametrize("is_told", [False, True])
+def test_a_texture_is_looked_up_by_its_own_uv_map(body, is_told):
+    """Or by the one that renders, not by the one that is selected in the list."""
+    colours = np.tile(type_colours()["I"], (4, 4, 1))
+    colours[:, :2] = type_colours()["VI"]
+    material = artist_skins.empty_material("Skin")
+    shader, tree = artist_skins.principled(material.node_tree), material.node_tree
+    texture = artist_skins.texture(tree, colours)
+    tree.links.new(texture.outputs[0], shader.inputs["Base Color"])
+    artist_skins.output_of(tree, shader.outputs[0])
+    body.data.materials.append(material)
+    layers = body.data.uv_layers
+    for name, x in (("light", 0.75), ("dark", 0.25)):
+        layer = layers.get(name) or layers.new(name=name)
+        layer.uv.foreach_set("vector", np.tile([x, 0.5], len(layer.uv)))
+    layers["light" if is_told else "dark"].active_render = True
+    layers.active = layers["light"]
+    if is_told:
+        mapped, mapping = (tree.nodes.new(f"ShaderNode{kind}") for kind in ("UVMap", "Mapping"))
+        mapped.uv_map = "dark"
+        tree.links.new(mapped.outputs[0], mapping.inputs["Vector"])
+        tree.links.new(mapping.outputs[0], texture.inputs["Vector"])
+    assert bpy.ops.skin_tan.match_texture() == {"FINISHED"}
+    assert body.skin_tan.skin == "VI"

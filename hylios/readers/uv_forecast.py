@@ -5,7 +5,8 @@ lists, itself or under a key: as Open-Meteo (`hourly`), OpenUV (`result`), OpenW
 seconds since 1970) and the US Environmental Protection Agency have them.
 
 Times are on the clock of the place: those that say no offset from universal time or one other than
-0, and universal times where the file says the place's offset. Otherwise they are universal.
+0, and universal times where the file says the place's offset. Otherwise they are universal. Where
+offsets change, to daylight saving or from it, all are on the clock of the first time.
 """
 
 import json
@@ -65,6 +66,8 @@ class Forecast:
         Degrees, east positive, where the file says it.
     missing : int
         Times without an index, which were left out.
+    has_changes : bool
+        Whether the place's clock changed between the times, all of which are on the first's.
     """
 
     name: str
@@ -75,6 +78,7 @@ class Forecast:
     is_local: bool = True
     longitude: float | None = None
     missing: int = 0
+    has_changes: bool = False
 
     def on_clock(self, utc_offset: float) -> "Forecast":
         """The same in the time of a place, if this is in universal time.
@@ -123,8 +127,8 @@ def read_forecast(path: Path) -> Forecast:
     Raises
     ------
     InputError
-        If it cannot be read, has no times or indices, times that do not ascend or are of different
-        clocks, or an index that is out of range.
+        If it cannot be read, has no times or indices, times that do not ascend or of which only
+        some have an offset from universal time, or an index that is out of range.
     """
     return forecast_of(lines_of(path), name_of(path))
 
@@ -150,7 +154,7 @@ def forecast_of(lines: Sequence[str], name: str) -> Forecast:
     moments = [_moment(name, *both) for both in zip(times, entries, strict=True)]
     values = [_index(name, indices[number], entries[number]) for number in present]
     _require_order(name, moments, entries)
-    moments, offset, is_local = _on_the_places_clock(moments, place)
+    moments, offset, is_local, has_changes = _on_the_places_clock(moments, place)
     day = moments[0].date()
     midnight = datetime(day.year, day.month, day.day, tzinfo=moments[0].tzinfo)
     hours = [(moments[number] - midnight) / timedelta(hours=1) for number in present]
@@ -163,22 +167,25 @@ def forecast_of(lines: Sequence[str], name: str) -> Forecast:
         is_local,
         place.longitude,
         len(indices) - len(present),
+        has_changes,
     )
 
 
 def _on_the_places_clock(
     moments: list[datetime], place: _Place
-) -> tuple[list[datetime], float | None, bool]:
-    """Times, their offset from universal time in hours, and whether that is the place's."""
+) -> tuple[list[datetime], float | None, bool, bool]:
+    """Times, hours of their offset from universal time, whether it is the place's, and changed."""
     own, offset = moments[0].utcoffset(), place.utc_offset
     is_usual = offset == 0.0 and place.time_zone.casefold() in UNIVERSAL
     if own is None:
-        return moments, offset, not is_usual
+        return moments, offset, not is_usual, False
     hours = own / timedelta(hours=1)
     if offset is not None and not is_usual:
         zone = timezone(timedelta(hours=offset))
-        return [moment.astimezone(zone) for moment in moments], offset, True
-    return moments, hours, hours != 0.0
+        return [moment.astimezone(zone) for moment in moments], offset, True, False
+    has_changes = any(moment.utcoffset() != own for moment in moments)
+    first = [moment.astimezone(moments[0].tzinfo) for moment in moments]
+    return first, hours, hours != 0.0 or has_changes, has_changes
 
 
 def _json(text: str, name: str) -> Any:
@@ -309,14 +316,12 @@ def _index(name: str, given: Any, place: str) -> float:
 
 
 def _require_order(name: str, moments: Sequence[datetime], places: Sequence[str]) -> None:
-    """Raise InputError where times are of different clocks or do not ascend, or too far."""
+    """Raise InputError where some times lack an offset, or they do not ascend, or too far."""
     for before, after, place in zip(moments[:-1], moments[1:], places[1:], strict=True):
-        if (before.tzinfo is None) != (after.tzinfo is None) or (
-            before.utcoffset() != after.utcoffset()
-        ):
+        if (before.tzinfo is None) != (after.tzinfo is None):
             raise InputError(
                 f"{name} has a time of {after.isoformat()} in {place} after "
-                f"{before.isoformat()}; allowed is one offset from UTC."
+                f"{before.isoformat()}; allowed is an offset from UTC in all times or in none."
             )
         if after <= before:
             raise InputError(

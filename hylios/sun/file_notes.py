@@ -36,6 +36,8 @@ def of_forecast(forecast: Forecast, spans: Sequence[tuple[float, float]]) -> lis
         notes.append(f"{forecast.missing} of {total} UV indices of {name} {are} missing")
     if not forecast.is_local:
         notes.append(f"hours are in UTC: {name} does not say the place's clock")
+    if forecast.has_changes:
+        notes.append(f"hours are on the clock of the first time in {name}, which changes later")
     without = sum(hours_without_index(forecast, *span) for span in spans)
     if without >= LEAST_GAP:
         notes.append(

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hylios.errors import InputError
 from hylios.readers.epw import epw_of, is_epw, read_epw
 from hylios.readers.uv_forecast import forecast_of, read_forecast
+from hylios.sun.file_notes import of_forecast
 
 HEAD = """\
 LOCATION,Denver Intl Ap,CO,USA,TMY3,725650,39.83,-104.65,-7.0,1650.0
@@ -176,6 +177,22 @@ def test_times_are_on_the_clock_of_the_place_where_the_file_says_it(
     assert told.longitude == (139.7 if place in (TOKYO, UNSET) else None)
 
 
+@pytest.mark.parametrize(
+    ("times", "first", "offset"),
+    [
+        # Berlin, 29 March: an hour after 01:30 it is 03:30. 25 October: there are two hours of 2.
+        (("2026-03-29T01:30+01:00", "2026-03-29T03:30+02:00", "2026-03-30T12+02:00"), 1.5, 1.0),
+        (("2026-10-25T02:30+02:00", "2026-10-25T02:30+01:00", "2026-10-26T10+01:00"), 2.5, 2.0),
+        (("2026-03-29T00:30+00:00", "2026-03-29T02:30+01:00", "2026-03-30T12+01:00"), 0.5, 0.0),
+    ],
+)
+def test_where_the_clock_changes_all_hours_are_on_the_first(times, first, offset):
+    told = forecast("time,uv_index\n" + "".join(f"{time},5\n" for time in times))
+    assert told.hours == pytest.approx([first, first + 1.0, 35.0], abs=1e-9)
+    assert (told.utc_offset, told.is_local, told.has_changes) == (offset, True, True)
+    assert "hours are on the clock of the first time in sky.txt" in of_forecast(told, [])[0]
+
+
 def test_universal_times_go_on_a_clock():
     """22:30 and 23:00 of Friday in Greenwich are 7:30 and 8:00 of Saturday in Tokyo."""
     told = forecast('[{"dt": 1782081000, "uvi": 1}, {"dt": 1782082800, "uvi": 2}]')
@@ -223,7 +240,7 @@ def test_times_without_an_index_are_left_out_and_counted(text):
         ),
         (
             "time,uv_index\n2026-06-21 10:00,5\n2026-06-21 11:00+02:00,6\n",
-            "allowed is one offset from UTC",
+            "allowed is an offset from UTC in all times or in none",
         ),
         ("time,uv_index\n1901-06-21,5\n2026-06-22,5\n", "allowed is a century"),
         ("time,uv_index\n1026-06-21,5\n2026-06-22,5\n", "allowed are the years 1900 to 2100"),

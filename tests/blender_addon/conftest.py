@@ -10,6 +10,21 @@ import blender_addon
 from lut_builder.exr_writer import write_table
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """A test fails where Blender has printed an error of the add-on instead of raising it.
+
+    So it does with those of what follows a setting, of handlers and of timers.
+    """
+    report = yield
+    printed = report.capstdout + report.capstderr
+    has_error = "Traceback (most recent call last)" in printed
+    is_provoked = item.get_closest_marker("provokes") is not None
+    if report.when == "call" and report.passed and has_error and not is_provoked:
+        report.outcome, report.longrepr = "failed", f"Blender printed an error:\n{printed}"
+    return report
+
+
 @pytest.fixture(autouse=True)
 def empty_scene(monkeypatch):
     import bpy  # the tests of the model run without it

@@ -189,6 +189,7 @@ def test_a_duplicate_and_its_original_both_go_back(table_path, make, order, appl
     assert len(bpy.data.actions) == 1
 
 
+@pytest.mark.provokes
 def test_an_error_leaves_the_keys_where_they_were(table_path, monkeypatch):
     obj = body(table_path, [keyed("skin"), grouped("ears")])
     before = all_of_file()

@@ -356,6 +356,7 @@ def test_a_material_in_an_input_of_geometry_nodes_stays_as_it_was(body):
     [(images, "set_colour_space"), (materials, "new_material"), (timeline, "_curve")],
 )
 @pytest.mark.parametrize("applied", [False, True])
+@pytest.mark.provokes
 def test_an_exception_leaves_all_as_it_was(table_path, monkeypatch, module, name, applied):
     """In the midst of the work: what was made so far is gone, what was there is unchanged."""
     obj = tan_object(table_path)

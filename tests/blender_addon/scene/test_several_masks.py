@@ -110,6 +110,7 @@ def test_remove_tan_takes_all_away(body):
     assert "skin_tan_basis" not in body.data
 
 
+@pytest.mark.provokes
 def test_an_error_leaves_all_as_it_was(body, monkeypatch):
     from blender_addon.scene import several
 

@@ -13,6 +13,7 @@ from ..model.summary import LINE
 from ..ops.active import active_mesh, current_scene
 from ..props import settings_of
 from ..scene.masks import require_usable
+from ..scene.ownership import is_local
 from ..scene.slots import has_tan
 from ..scene.timeline import shown_day
 from .biology import draw_biology
@@ -52,9 +53,13 @@ class _Main:
             layout.label(text="Select a mesh object", icon="INFO")
             return
         settings = settings_of(obj)
+        elsewhere = _of_another_file(obj)
         row = layout.row()
         row.scale_y = 1.5
+        row.enabled = not elsewhere
         row.operator("skin_tan.apply", icon="MATERIAL")
+        if elsewhere:
+            draw_lines(layout, elsewhere, "LINKED")
         day = shown_day(obj)
         if day is not None:
             draw_lines(layout, (Line("This frame shows day {day:.1f}", day=day),), "TIME")
@@ -69,7 +74,21 @@ class _Main:
         if is_left_behind(obj, current_scene(context)):
             draw_lines(layout, FRAMES_CHANGED, "INFO")
         draw_size(layout, obj, current_scene(context))
-        layout.operator("skin_tan.remove", icon="X")
+        row = layout.row()
+        row.enabled = not elsewhere
+        row.operator("skin_tan.remove", icon="X")
+
+
+def _of_another_file(obj: bpy.types.Object) -> tuple[str, ...]:
+    """Short lines on why the tan of an object is not changed here; none where it is."""
+    if obj.library is not None:
+        return "Linked from another file: make it", "local or a library override"
+    if obj.override_library is not None:
+        return "Library override: its tan changes in", "its own file; Reset keys its days here"
+    action = obj.animation_data.action if obj.animation_data else None
+    if all(block is None or is_local(block) for block in (obj.data, action)):
+        return ()
+    return "Its mesh or animation is linked:", "make it local to change its tan"
 
 
 def _draw_change(layout: bpy.types.UILayout, obj: bpy.types.Object, scene: bpy.types.Scene) -> None:

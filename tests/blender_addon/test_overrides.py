@@ -4,9 +4,11 @@ from pathlib import Path
 
 import bpy
 import pytest
+from drawing import drawn
 from scenes import apply, tan_object
 
 import blender_addon
+from blender_addon.ui import panel
 
 
 @pytest.fixture
@@ -111,3 +113,17 @@ def test_a_preset_turns_them_off_too_and_leaves_linked_data_alone(shot):
     with pytest.raises(RuntimeError, match="linked from another file"):
         bpy.ops.script.execute_preset(filepath=preset, menu_idname="SKIN_TAN_PT_schedule_presets")
     assert [item.dose for item in linked.skin_tan.exposures] == [30.0]
+
+
+def test_the_panel_says_where_the_tan_is_changed(shot):
+    lines = ("Library override: its tan changes in", "its own file; Reset keys its days here")
+    assert set(lines) <= set(drawn(panel.VIEW3D_PT_skin_tan))
+    linked = body().override_library.reference
+    with bpy.context.temp_override(object=linked):
+        assert "Linked from another file: make it" in drawn(panel.VIEW3D_PT_skin_tan)
+    local = bpy.data.objects.new("Local", linked.data)
+    with bpy.context.temp_override(object=local):
+        assert "Its mesh or animation is linked:" in drawn(panel.VIEW3D_PT_skin_tan)
+    local.data = local.data.copy()
+    with bpy.context.temp_override(object=local):
+        assert not drawn(panel.VIEW3D_PT_skin_tan)

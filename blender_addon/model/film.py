@@ -21,9 +21,6 @@ from .look import NORMAL_ANGLE
 ROUGHNESS = {"water": 0.05, "oil": 0.12, "sunscreen": 0.2}
 """Of a film's face as a shader has it, by eye; the light model's is flat."""
 
-USUAL_ANGLE = 30.0
-"""Of view, in degrees."""
-
 DEEP_MILLIMETRES = 0.1
 """Depth of pores and fine lines, which a film fills from below."""
 
@@ -43,8 +40,8 @@ class Film:
     relief : float
         Of its face, as a share of the skin's.
     more_through : float
-        Share by which film and skin let more light through than dry skin's gloss; much the same at
-        all angles of view up to 70 degrees.
+        Share by which film and skin let more light through than dry skin's gloss, straight on; at
+        70 degrees it is .03 more.
     start, slope : tuples of 3 float
         A shader's base colour under the film, over that without one, is 1 + start + slope times
         the colour of the light that has been inside skin without a film, in each channel.
@@ -63,13 +60,13 @@ def film_of(liquid: str, roughness: float) -> Film:
     """A film of one of `hylios.tissue.liquids.LIQUIDS` on skin with a shader's roughness."""
     index, thickness = LIQUIDS[liquid].index, LIQUIDS[liquid].thickness
     start, slope = _fits()[liquid]
-    ratio = _dry_over_wet(index, roughness, NORMAL_ANGLE)
+    ratio = _dry_over_wet(index, roughness)
     return Film(
         liquid=liquid,
         index=index,
         roughness=ROUGHNESS[liquid],
         relief=max(0.0, 1.0 - thickness / DEEP_MILLIMETRES),
-        more_through=1.0 / _dry_over_wet(index, roughness, USUAL_ANGLE) - 1.0,
+        more_through=1.0 / ratio - 1.0,
         start=_channels(ratio * start - 1.0),
         slope=_channels(ratio * slope),
     )
@@ -80,12 +77,12 @@ def _channels(values: NDArray[np.float64]) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def _dry_over_wet(index: float, roughness: float, angle: float) -> float:
-    """What dry skin's gloss lets through, over what film and skin do, at an angle in degrees."""
-    face, _ = fresnel(np.cos(np.radians(angle)), 1.0, index)
+def _dry_over_wet(index: float, roughness: float) -> float:
+    """What dry skin's gloss lets through, over what film and skin do, straight on."""
+    face, _ = fresnel(np.cos(np.radians(NORMAL_ANGLE)), 1.0, index)
     beneath, _ = fresnel(1.0, index, INDEX)
     through = (1.0 - face) * (1.0 - beneath)
-    return float(let_through(roughness, angle) / through)
+    return float(let_through(roughness, NORMAL_ANGLE) / through)
 
 
 @functools.cache

@@ -16,7 +16,7 @@ from hylios.errors import InputError
 from hylios.table import SkinTable
 from hylios.table.provenance import MinimalDoses
 
-from .layer import let_through, through_gloss
+from .layer import gloss_row, let_through
 from .look_grid import COLOUR, Grid, grid_of, over_states
 
 WIDTH, NEAR, FAR = "profile_width", "near_share", "far_width"
@@ -63,8 +63,6 @@ class Look:
         The shader's base colour over `colour`, seen at 8 degrees.
     near_weight : float
         Weight, at most 1, of the shader that shows the near light: a skin's usual near share.
-    through : 4 floats
-        What the surface lets through by angle of view, as `layer.through_gloss` has it.
     roughness : float
         Of the surface, as a shader has it.
     has_profile : bool
@@ -83,7 +81,6 @@ class Look:
     most_tan: float
     level: float
     near_weight: float
-    through: tuple[float, float, float, float]
     roughness: float
     has_profile: bool
 
@@ -95,14 +92,12 @@ class Look:
 
     @property
     def light(self) -> NDArray[np.float32]:
-        """What of light has no colour, in one image: `bend`, `bow`, `near` and `far` above each
-        other, and a row of the light that the gloss lets through at 0 to 90 degrees, over x, 1 less
-        the cosine."""
-        x = np.linspace(0.0, 1.0, self.bend.shape[1])
-        through = np.array(self.through) @ x ** np.array([[0], [2], [3], [4]])
-        row = np.broadcast_to(through[:, None], (1, len(x), 3))
-        blocks = self.bend, self.bow, self.near, self.far, row
-        return np.concatenate(blocks, axis=0).astype(np.float32)
+        """What of light has no colour, in one image (rows, columns, 4): `bend`, `bow`, `near` and
+        `far` above each other, and the row `layer.gloss_row`. Only that has a fourth number."""
+        blocks = np.concatenate([self.bend, self.bow, self.near, self.far], axis=0)
+        blocks = np.pad(blocks, ((0, 0), (0, 0), (0, 1)), constant_values=1.0)
+        row = gloss_row(self.roughness, self.bend.shape[1])
+        return np.concatenate([blocks, row[None]], axis=0).astype(np.float32)
 
 
 def look(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> Look:
@@ -146,7 +141,6 @@ def look(table: SkinTable, minimal: MinimalDoses, kinetics: str = "thesis") -> L
         most_tan=float(grid.spread.most.max()),
         level=level,
         near_weight=_near_weight(level * colour, near[:, None]),
-        through=through_gloss(roughness),
         roughness=roughness,
         has_profile=FAR in planes or WIDTH in planes,
     )

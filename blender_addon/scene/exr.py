@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 MAGIC, VERSION = b"\x76\x2f\x31\x01", 2
 PXR24, LINES_PER_BLOCK = 5, 16
 FLOAT = 2
+NAMES = b"RGBA"
 
 
 def encoded(values: NDArray) -> bytes:
-    """A file of `rounded` numbers (rows, columns, 3), of which the first row is at the bottom."""
-    rows, columns, _ = values.shape
+    """A file of `rounded` numbers (rows, columns, 3 or 4), the first row at the bottom."""
+    rows, columns, channels = values.shape
     # Lines from the top; a line has its channels one after the other, in the order of the alphabet.
     lines = _upper_24_bits(values[::-1, :, ::-1].swapaxes(1, 2))
     blocks = [
@@ -26,7 +27,7 @@ def encoded(values: NDArray) -> bytes:
         for first in range(0, rows, LINES_PER_BLOCK)
         for packed in [_packed(lines[first : first + LINES_PER_BLOCK])]
     ]
-    header = _header(columns, rows)
+    header = _header(columns, rows, NAMES[:channels])
     start = len(header) + 8 * len(blocks)
     places = start + np.cumsum([0, *map(len, blocks[:-1])])
     return header + places.astype("<u8").tobytes() + b"".join(blocks)
@@ -54,10 +55,10 @@ def _packed(lines: NDArray[np.uint32]) -> bytes:
     return packed if len(packed) < len(raw) else raw
 
 
-def _header(columns: int, rows: int) -> bytes:
+def _header(columns: int, rows: int, names: bytes) -> bytes:
     window = struct.pack("<4i", 0, 0, columns - 1, rows - 1)
     channels = b"".join(
-        name + b"\0" + struct.pack("<4i", FLOAT, 0, 1, 1) for name in (b"B", b"G", b"R")
+        bytes([name, 0]) + struct.pack("<4i", FLOAT, 0, 1, 1) for name in reversed(names)
     )
     attributes = (
         ("channels", "chlist", channels + b"\0"),

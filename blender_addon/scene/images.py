@@ -49,6 +49,8 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
 
     Parameters
     ----------
+    values : array
+        With a fourth number to a place, that is the image's alpha, and the others stay as they are.
     is_colour : bool
         Whether they are linear Rec.709 colours, or else numbers that are no colours.
 
@@ -57,8 +59,11 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
     InputError
         If Blender's colour management has no space that fits.
     """
-    rows, columns, _ = values.shape
-    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True)
+    rows, columns, channels = values.shape
+    has_alpha = channels > 3
+    image = bpy.data.images.new(name, columns, rows, alpha=has_alpha, float_buffer=True)
+    if has_alpha:
+        image.alpha_mode = "CHANNEL_PACKED"
     set_colour_space(image, is_colour=is_colour)
     if not is_colour:
         # EEVEE would keep 11 bits, too few for a place between two texels.
@@ -89,7 +94,7 @@ def linear(values: np.ndarray) -> np.ndarray:
 
 def _set_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
     pixels = np.ones((*values.shape[:2], 4), dtype=np.float32)
-    pixels[..., :3] = values
+    pixels[..., : values.shape[-1]] = values
     cast(Any, image.pixels).foreach_set(pixels.ravel())
     image.update()
 

@@ -75,7 +75,8 @@ def take_over(group: Any, trees: Collection[Any], changes: Changes) -> None:
                 for source in sources:
                     group.links.new(source, end)
             layout_2.bypass(group, node, [], changes)
-    link(group, made)
+    link(group, made, layout_2.EVEN_GLOSS_LINKS)
+    layout_2.tint_gloss(group, changes)
     for share in of_role(group, "share"):
         changes.set(share, "operation", ROLES["share"].values["operation"])
         changes.set(share, "label", ROLES["share"].label)

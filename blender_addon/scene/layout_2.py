@@ -1,8 +1,9 @@
-"""Node groups by layout 2: taken over.
+"""Node groups by layouts 2 and 3: taken over.
 
-Nodes of theirs led coordinates to places in images, which nodes of images do themselves since, and
-others computed what the gloss lets through, which an image tells since. An image held the colour of
-thick skin, not by how much it differs.
+Nodes of layout 2 led coordinates to places in images, which nodes of images do themselves since,
+and others computed what the gloss lets through, which an image tells since. An image held the
+colour of thick skin, not by how much it differs. In both the gloss was the same at all angles of
+view.
 """
 
 from functools import partial
@@ -11,9 +12,9 @@ from typing import Any
 from . import regions
 from .changes import Changes
 from .nodes import complete, find_input, find_output, link, new_node, of_role, role_of, take_role
-from .plan import LAYOUT, LAYOUT_KEY, ROLE_KEY, ROLE_PREFIX, ROLES
+from .plan import LAYOUT, LAYOUT_KEY, LINKS, ROLE_KEY, ROLE_PREFIX, ROLES, TINT
 
-FORMER_LAYOUT = 2
+PLACES_LAYOUT, EVEN_GLOSS_LAYOUT = 2, 3
 
 PLACES = "column row look_column thick_place middle_place region_column own_column".split()
 """Roles of the nodes that led to places."""
@@ -21,16 +22,43 @@ PLACES = "column row look_column thick_place middle_place region_column own_colu
 GLOSS = ("quadratic", "cubic", "square")
 """Roles of the nodes of which `through` computed what the gloss lets through."""
 
+SHADERS = ("skin", "near_skin")
+TINT_LINKS = [own for own in LINKS if own[-1] == TINT]
+EVEN_GLOSS_LINKS = [own for own in LINKS if own not in TINT_LINKS]
+
 
 def take_over(group: Any, changes: Changes) -> None:
-    """Bring a group of the plan before up to today's.
+    """Bring a group of either layout up to today's.
 
     What an artist linked stays linked: a node of ours that leads to one of the artist's stays.
     """
-    if group.get(LAYOUT_KEY) != FORMER_LAYOUT:
+    former = group.get(LAYOUT_KEY)
+    if former not in (PLACES_LAYOUT, EVEN_GLOSS_LAYOUT):
         return
     changes.may_add_to(group.nodes)
     changes.may_relink(group)
+    if former == PLACES_LAYOUT:
+        _take_over_places(group, changes)
+    tint_gloss(group, changes)
+    changes.set_key(group, LAYOUT_KEY, LAYOUT)
+
+
+def tint_gloss(group: Any, changes: Changes) -> None:
+    """Have the gloss change with the angle of view, unless an artist has tinted it.
+
+    What tints it in a view was a colour, which would be in the way of that.
+    """
+    for node in list(of_role(group, "view_tint")):
+        take_role(node, changes)
+        for former in list(node.outputs[0].links):
+            group.links.remove(former)
+        changes.at_the_end(partial(group.nodes.remove, node))
+    tints = [find_input(node, TINT) for role in SHADERS for node in of_role(group, role)]
+    if all(min(tint.default_value) > 1.0 - 1e-6 for tint in tints):
+        link(group, ["let_through"], TINT_LINKS)
+
+
+def _take_over_places(group: Any, changes: Changes) -> None:
     for role in PLACES:
         for node in of_role(group, role):
             bypass(group, node, [former.from_socket for former in node.inputs[0].links], changes)
@@ -39,13 +67,12 @@ def take_over(group: Any, changes: Changes) -> None:
     complete_thickness(group, changes)
     if any(of_role(group, "beneath")):
         new_node(group, "let_through")
-        link(group, ["let_through"])
+        link(group, ["let_through"], EVEN_GLOSS_LINKS)
         (gives,) = (node.outputs["Color"] for node in of_role(group, "let_through"))
         goes = [bypass(group, node, [gives], changes) for node in of_role(group, "through")]
         for role in GLOSS if all(goes) else ():
             for node in of_role(group, role):
                 bypass(group, node, [], changes)
-    changes.set_key(group, LAYOUT_KEY, LAYOUT)
 
 
 def _part_untanned(group: Any, changes: Changes) -> None:

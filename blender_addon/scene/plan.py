@@ -8,7 +8,7 @@ the angle of view, to the base colours of two shaders.
 from dataclasses import dataclass, field
 from typing import Any
 
-LAYOUT_KEY, LAYOUT = "skin_tan_layout", 3
+LAYOUT_KEY, LAYOUT = "skin_tan_layout", 4
 """Custom property of a group that says that this add-on made it, and by which plan."""
 
 PROFILE_KEY = "skin_tan_profile"
@@ -30,6 +30,9 @@ SEEN = 0.00973
 
 SHARPEST = 0.3
 """Roughness of fully oiled skin's sharper gloss over that of the skin, by eye."""
+
+TINT = "Specular Tint"
+"""Input of a shader that is a factor on its gloss, and may be above 1."""
 
 LONG = 1e5
 """What a normal is multiplied by, so that one which is added turns it by no more than 1e-5. Where
@@ -96,7 +99,8 @@ LOOK = {"colours": "Colours", "light": "Light"}
 
 LIGHT = ("bend", "bow", "near", "width")
 """Roles of the nodes that show the image of light, by its rows from the bottom; its last row is for
-`let_through`. `bend` and `bow` tell how colour changes with the angle of view."""
+`let_through`, with the tint of the gloss as its alpha. `bend` and `bow` tell how colour changes
+with the angle of view."""
 
 CHANNEL_ROLES = {
     "mask_channel": vector_role("DOT_PRODUCT", "Channel of the mask", (-2300, 400)),
@@ -287,6 +291,7 @@ LINKS: tuple[Link, ...] = (
     ("far_weight", "Value", "lobes", 0),
     ("facing", "Facing", "let_through", "Vector"),
     ("let_through", "Color", "beneath", 0),
+    *(("let_through", "Alpha", role, TINT) for role in ("skin", "near_skin")),
     ("two_lobes", "Value", "beneath", 1),
     ("near_part", "Vector", "near_shown", 0),
     ("beneath", "Value", "near_shown", "Scale"),

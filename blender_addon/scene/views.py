@@ -56,15 +56,15 @@ ROLES = {
     "view_film": Role(
         "ShaderNodeVectorMath", "Light through a film", (1400, 800), {"operation": "MULTIPLY_ADD"}
     ),
-    "view_tint": Role("ShaderNodeRGB", "Tint of the gloss", (1400, 950)),
+    "view_tint": Role(
+        "ShaderNodeVectorMath", "Tint of the gloss", (1650, 1150), {"operation": "MULTIPLY"}
+    ),
 }
 LINKS: tuple[Link, ...] = (
     ("thickness", "Value", "view_mixed", "Factor_Float"),
     ("view_thin", "Color", "view_mixed", "A_Color"),
     ("view_thick", "Color", "view_mixed", "B_Color"),
     ("view_mixed", "Result_Color", "view_colour", "B_Color"),
-    ("view_tint", "Color", "skin", "Specular Tint"),
-    ("view_tint", "Color", "near_skin", "Specular Tint"),
 )
 
 
@@ -77,6 +77,7 @@ STAND_INS = {
     "view_width": StandIn("width", "Color", 0, "Value"),
     "view_angle": StandIn("slope", "Vector", 0, "Vector"),
     "view_film": StandIn("film_colour", "Vector", 0, "Vector"),
+    "view_tint": StandIn("let_through", "Alpha", 0, "Vector"),
 }
 
 
@@ -175,7 +176,7 @@ def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None
         changes.set(node.inputs[2], "default_value", less)
     for node in nodes.of_role(group, "view_tint"):
         tint = Color(band.tint).from_rec709_linear_to_scene_linear()
-        changes.set(node.outputs[0], "default_value", (*tint, 1.0))
+        changes.set(node.inputs[1], "default_value", tuple(tint))
     for role in ("view_thin", "view_thick"):
         for node in nodes.of_role(group, role):
             changes.set(node, "image", band.image)

@@ -16,7 +16,7 @@ WHOLE = {0.0: (0.12, 0.25), 45.0: (0.25, 0.4), 70.0: (1.8, 2.4)}
 INSIDE = {0.0: (0.06, 0.12), 45.0: (0.06, 0.12), 70.0: (0.2, 0.4)}
 """What is allowed at each angle: mean and largest CIEDE2000."""
 
-SAMPLES = 704
+SAMPLES = 1408
 
 AGAIN = 13
 """Every so many pictures one is taken again, to tell what chance does."""

@@ -19,7 +19,7 @@ from synthetic import (
 )
 
 from blender_addon.model import catalogue
-from blender_addon.model.layer import let_through, through_gloss
+from blender_addon.model.layer import gloss_row, let_through
 from blender_addon.model.look import look
 from hylios.adding import spectrum
 from hylios.lab.colour import difference
@@ -179,13 +179,25 @@ def test_pale_skin_needs_no_base_colour_above_1():
 
 
 @pytest.mark.parametrize("roughness", [0.1, 0.316, 0.5, 0.9])
-def test_what_a_gloss_lets_through_as_a_polynomial(roughness):
-    """Within the noise of what was measured, of which it is made."""
-    angles = np.array([0.0, 8.0, 30.0, 45.0, 60.0, 70.0])
-    x = 1.0 - np.cos(np.radians(angles))
-    powers = np.stack([x**power for power in (0, 2, 3, 4)], axis=1)
-    through = powers @ through_gloss(roughness)
-    assert through == pytest.approx(let_through(roughness, angles), abs=5e-4)
+def test_gloss_and_what_it_lets_through_are_all_light(roughness):
+    """So the tint, which has the gloss reflect what the model's surface does, leaves the rest."""
+    angles = np.array([0.0, 45.0, 60.0, 70.0, 80.0])
+    own = phototype("III").skin
+    of = replace(own.at(own.untanned_state), surface_fold_aspect_ratio=roughness**2)
+    reflected = spectrum(of, [560.0], angle=list(angles)).surface[:, 0]
+    assert let_through(roughness, angles) == pytest.approx(1.0 - reflected, abs=0.012)
+    assert let_through(roughness, angles[:4]) == pytest.approx(1.0 - reflected[:4], abs=0.006)
+
+
+def test_a_row_of_the_gloss_over_the_angle_of_view():
+    """The tint is 1 where no facet shadows another, and rises towards the rim elsewhere."""
+    smooth, skin = (gloss_row(roughness, 32) for roughness in (0.05, 0.316))
+    at_60 = np.interp(0.5, np.linspace(0.0, 1.0, 32), skin[:, 0])
+    assert at_60 == pytest.approx(float(let_through(0.316, 60.0)), abs=1e-3)
+    assert smooth[:20, 3] == pytest.approx(1.0, abs=0.02)
+    assert skin[0, 3] == pytest.approx(1.0, abs=0.02)
+    assert np.all(np.diff(skin[:, 3]) >= 0.0) and 4.0 < skin[-1, 3] < 8.0
+    assert np.array_equal(skin[:, 0], skin[:, 2])
 
 
 def test_dark_skin_is_darker_straight_on_than_at_8_degrees():

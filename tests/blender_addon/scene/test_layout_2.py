@@ -8,7 +8,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scenes import add_camera, apply, of_role, render
+from scenes import add_camera, apply, of_role, render, tan_group, tan_object
 from test_layout_1 import labelled
 from test_shader import show_emission_of
 
@@ -68,3 +68,22 @@ def test_without_regions_the_untanned_colour_is_that_of_the_skin(body):
     (link,) = of_role(body, "untanned").inputs["Vector"].links
     assert link.from_node == of_role(body, "look_place")
     assert not of_role(body, "untanned").texture_mapping.scale[0]
+
+
+@pytest.mark.parametrize("tint", [(1.0, 1.0, 1.0, 1.0), (1.0, 0.8, 0.6, 1.0)])
+def test_gloss_that_was_alike_at_all_angles(table_path, tint):
+    """By layout 3, in a view of another band too; an artist's tint stays."""
+    obj = tan_object(table_path)
+    assert apply(obj) == {"FINISHED"}
+    group, skin = tan_group(obj), of_role(obj, "skin")
+    end = skin.inputs["Specular Tint"]
+    group.links.remove(end.links[0])
+    end.default_value = tint
+    former = group.nodes.new("ShaderNodeRGB")
+    former.name = f"{plan.ROLE_PREFIX}view_tint"
+    group.links.new(former.outputs[0], of_role(obj, "near_skin").inputs["Specular Tint"])
+    group[plan.LAYOUT_KEY] = 3
+    assert apply(obj) == {"FINISHED"} and group[plan.LAYOUT_KEY] == plan.LAYOUT
+    assert end.is_linked == (tint[1] == 1.0)
+    assert not any(node.bl_idname == "ShaderNodeRGB" for node in group.nodes)
+    assert tuple(end.default_value) == pytest.approx(tint)

@@ -31,7 +31,6 @@ LATER = frozenset("peeling darkening altitude cloud ground through depth".split(
 tan of before counts as shown."""
 
 SEPARATOR = "\n"
-
 Frames = tuple[int, int, int, float]
 """Of a scene: the first, the last, those of a second, and what divides these."""
 
@@ -104,6 +103,11 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+def content(text: str, *, rough: bool) -> str:
+    """What an image comes from that shows settings exactly or roughly."""
+    return digest(text) + " roughly" * rough
+
+
 def look_digest(text: str) -> str:
     """Digest of the biology and the skin in a text."""
     return digest(SEPARATOR.join(text.split(SEPARATOR)[1:3]))
@@ -121,6 +125,12 @@ def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
 def is_only_schedule_changed(former: str, now: str) -> bool:
     """Whether no setting but the times in the sun and the sensitivity differs in two texts."""
     return former != now and former.split(SEPARATOR)[1:] == now.split(SEPARATOR)[1:]
+
+
+def has_look(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether the last Apply has made the look that an object's settings describe."""
+    former, now = settings_of(obj).applied, text_of(obj, scene)
+    return is_only_schedule_changed(former, now) and not is_sensitivity_changed(former, now)
 
 
 def is_sensitivity_changed(former: str, now: str) -> bool:

@@ -67,7 +67,7 @@ def apply_tan(
     days = values.first_day, values.last_day
     seen = applied.applied_frames(obj, scene) if live else applied.scene_frames(scene)
     frames = timing.frames(settings, days, seen)
-    tan = tan_of(values, rough=rough)
+    tan = tan_of(values, rough=rough and not applied.has_look(obj, scene))
     of_masks = several.computed(obj, rough=rough)
     with Changes() as changes:
         keep_response(settings, changes)
@@ -91,7 +91,7 @@ def apply_tan(
         skin.set_viewport_colour(untanned_colour(tan.look), changes)
         detail.set_size(skin.trees(), obj, unit, changes)
         nodes.set_roughness(skin.trees(), skin.group, sampled.roughness, changes)
-        _note(obj, sampled, applied.text_of(obj, scene, seen), changes, rough=rough)
+        _note(obj, skin, sampled, applied.text_of(obj, scene, seen), changes, rough=rough)
         kept = images.replace(replaced, made, skin.users, obj, changes)
         said = [*attached, *told, *timed, *remarks.on_tan(obj, skin, values, tan)]
         said += remarks.on_size(obj, scene)
@@ -155,9 +155,16 @@ def _sampled(
 
 
 def _note(
-    obj: bpy.types.Object, sampled: Sampled, text: str, changes: Changes, *, rough: bool
+    obj: bpy.types.Object,
+    skin: skins.Skin,
+    sampled: Sampled,
+    text: str,
+    changes: Changes,
+    *,
+    rough: bool,
 ) -> None:
     """Note in images, and where they are exact on the object, of which settings they are."""
+    images.note_content(made_of_masks(skin.group), applied.content(text, rough=rough))
     images.note_content(sampled.of_history(), applied.digest(text))
     if rough and settings_of(obj).biology.is_changed():
         images.note_shown(sampled.of_look(), applied.look_digest(text))

@@ -25,9 +25,17 @@ from .model.history import DRAG, FULL, Precision
 from .model.own_colour import offsets
 from .model.tan import history_of, look_of, peeling_of
 from .props import settings_of
-from .scene import images, nodes, several
+from .scene import images, nodes
 from .scene.ownership import Users
-from .several import has_several, is_at_hand
+from .scene.several import own_history
+from .several import (
+    fits,
+    has_several,
+    is_at_hand,
+    is_in_place,
+    show_day,
+    show_exact,
+)
 from .tannable import tannable
 
 REST_SECONDS = 0.3
@@ -35,6 +43,9 @@ REST_SECONDS = 0.3
 
 BUSY_SECONDS = 0.2
 """While Blender renders, a change waits so long before it looks again."""
+
+DAY_SECONDS = 0.04
+"""While a thread computes the day that shows, a change waits so long before it looks again."""
 
 AHEAD_SECONDS = 0.1
 """While a thread computes, a change waits so long before it looks again."""
@@ -66,7 +77,7 @@ def after_undo(*_: Any) -> None:
             _restore(obj, text)
         else:
             look = nodes.own_look(settings.group) or {}
-            for image in {*(nodes.own_history(settings.group) or ()), *look.values()}:
+            for image in {*own_history(settings.group), *look.values()}:
                 images.show_packed(image)
     timers.wait(make_exact, REST_SECONDS)
 
@@ -91,7 +102,12 @@ def show_changes() -> float | None:
     if bpy.app.is_job_running("RENDER"):
         return BUSY_SECONDS
     scene = _scene()
-    _show(_stale(scene), scene, DRAG)
+    stale = _stale(scene)
+    waiting = [obj for obj in stale if _waits_for_day(obj, scene)]
+    _show([obj for obj in stale if obj not in waiting], scene, DRAG)
+    if waiting:
+        timers.forget(make_exact)
+        return DAY_SECONDS
     timers.wait(make_exact, REST_SECONDS)
     return None
 
@@ -118,6 +134,18 @@ def _is_ready(obj: bpy.types.Object) -> bool:
         return True
 
 
+def _waits_for_day(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
+    """Whether a thread computes the day that shows, of an object with several masks."""
+    text = applied.text_of(obj, scene)
+    is_one = not has_several(obj) or not _is_schedule(obj, text) or not _is_alone(obj)
+    if is_one or (settings_of(obj).applied == text and _lasts(obj, text)):
+        return False
+    with suppress(InputError):
+        tannable(obj)
+        return not show_day(obj, applied.content(text, rough=True))
+    return False
+
+
 def _show(objects: list[bpy.types.Object], scene: bpy.types.Scene, precision: Precision) -> None:
     """Show objects' settings: those of one whose Apply would refuse stay as they are."""
     has_applied = False
@@ -136,11 +164,7 @@ def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precisio
     if settings.applied == text and _is_alone(obj) and _lasts(obj, text):
         _restore_look(obj, text)
         _restore(obj, text)
-    elif (
-        applied.is_only_schedule_changed(settings.applied, text)
-        and (precision is DRAG or not applied.is_sensitivity_changed(settings.applied, text))
-        and _is_alone(obj)
-    ):
+    elif _is_schedule(obj, text) and _is_alone(obj) and _can_show(obj, text, precision):
         _restore_look(obj, text)
         show_schedule(obj, text, precision)
     elif precision is DRAG and _is_only_look_changed(obj, text):
@@ -150,6 +174,20 @@ def _show_one(obj: bpy.types.Object, scene: bpy.types.Scene, precision: Precisio
         apply_tan(obj, scene, rough=precision is DRAG and takes_longer, live=True)
         return True
     return False
+
+
+def _is_schedule(obj: bpy.types.Object, text: str) -> bool:
+    """Whether no setting but the schedule differs from those that Apply has last shown."""
+    former = settings_of(obj).applied
+    return text == former or applied.is_only_schedule_changed(former, text)
+
+
+def _can_show(obj: bpy.types.Object, text: str, precision: Precision) -> bool:
+    """Whether another schedule goes into the images that are there."""
+    if precision is DRAG:
+        return True
+    is_moved = applied.is_sensitivity_changed(settings_of(obj).applied, text)
+    return not is_moved and (not has_several(obj) or fits(obj))
 
 
 def _lasts(obj: bpy.types.Object, text: str) -> bool:
@@ -172,11 +210,16 @@ def show_schedule(obj: bpy.types.Object, text: str, precision: Precision) -> Non
     """
     tannable(obj)
     settings = settings_of(obj)
-    values = settings.values()
-    history, peeling = history_of(values, precision), peeling_of(values)
-    told = [history.coordinates, history.lines, *([] if peeling is None else [peeling])]
-    for image, values in zip(_history(obj), told, strict=True):
-        images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
+    if has_several(obj):
+        # A picture at once has come from a thread (`show_day`).
+        if precision is FULL:
+            show_exact(obj, applied.digest(text))
+    else:
+        values = settings.values()
+        history, peeling = history_of(values, precision), peeling_of(values)
+        told = [history.coordinates, history.lines, *([] if peeling is None else [peeling])]
+        for image, values in zip(_history(obj), told, strict=True):
+            images.swap_pixels(image, values, applied.digest(text), pack=precision is FULL)
     if precision is FULL:
         settings.applied = text
 
@@ -224,18 +267,16 @@ def _restore_look(obj: bpy.types.Object, text: str) -> None:
 def _restore(obj: bpy.types.Object, text: str) -> None:
     """Have a history be that of settings; where that takes another look it stays as it was."""
     settings = settings_of(obj)
-    former = settings.applied
-    is_schedule = text == former or (
-        applied.is_only_schedule_changed(former, text)
-        and not applied.is_sensitivity_changed(former, text)
-    )
-    if not is_schedule or not _is_alone(obj):
+    is_moved = applied.is_sensitivity_changed(settings.applied, text)
+    if is_moved or not _is_schedule(obj, text) or not _is_alone(obj):
         settings.undone = text
-        for image in nodes.own_history(settings.group) or ():
+        for image in _history(obj):
             images.show_packed(image)
         return
     restored = [images.restore(image, applied.digest(text)) for image in _history(obj)]
-    if not all(restored):
+    if not all(restored) and has_several(obj):
+        timers.wait(show_changes, 0.0)
+    elif not all(restored):
         try:
             show_schedule(obj, text, FULL)
         except InputError:
@@ -243,15 +284,12 @@ def _restore(obj: bpy.types.Object, text: str) -> None:
 
 
 def _is_alone(obj: bpy.types.Object) -> bool:
-    """Whether an object shows its history alone, in the images that Apply made for one mask."""
-    group = settings_of(obj).group
-    if has_several(obj) or several.is_shown(group):
-        return False
-    return nodes.own_history(group) is not None and not Users().others(group, obj)
+    """Whether an object shows its history alone, in the images that Apply made for its masks."""
+    return is_in_place(obj) and not Users().others(settings_of(obj).group, obj)
 
 
 def _history(obj: bpy.types.Object) -> tuple[bpy.types.Image, ...]:
-    return cast(Any, nodes.own_history(settings_of(obj).group))
+    return own_history(settings_of(obj).group)
 
 
 def _scene() -> bpy.types.Scene:
@@ -269,13 +307,13 @@ def _is_stale(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     text = applied.text_of(obj, scene)
     if settings.applied != text:
         return settings.undone != text
-    return not _is_right(settings.group, text)
+    return not _is_right(obj, text)
 
 
-def _is_right(group: bpy.types.NodeTree, text: str) -> bool:
+def _is_right(obj: bpy.types.Object, text: str) -> bool:
     """Whether pixels come from the settings of a text, not from a drag that has ended there."""
-    history, look = nodes.own_history(group) or (), nodes.own_look(group) or {}
-    of_history = {image.get(images.SHOWN) for image in history}
+    look = nodes.own_look(settings_of(obj).group) or {}
+    of_history = {image.get(images.SHOWN) for image in _history(obj)}
     of_look = {image.get(images.SHOWN) for image in look.values()}
     return of_history <= {None, applied.digest(text)} and of_look <= {
         None,

@@ -1,20 +1,53 @@
 """The tan of an object whose exposures have several masks, from its settings to its nodes."""
 
-from collections.abc import Sequence
+import functools
+from collections.abc import Mapping, Sequence
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
-from .model import basis, grid
+from .model import basis
 from .model.ahead import Ahead
 from .model.basis import Basis
-from .model.tan import basis_of
+from .model.room import GRID, Room, blocks_of, images_in, room_for, room_in
+from .model.settings import TanSettings
+from .model.tan import basis_of, day_basis_of, peeling_of
 from .props import settings_of
-from .scene import images, mask_values, several, several_nodes
+from .scene import exr, images, mask_values, nodes, several, several_nodes, timeline
 from .scene.changes import Changes
 from .scene.mask_nodes import ShownMask, shown_mask
 from .scene.masks import Mask
 
-AHEAD = Ahead(basis_of)
+Packed = dict[str, tuple[NDArray[np.float32], bytes]]
+
+
+@functools.lru_cache(maxsize=4)
+def _packed(values: TanSettings, which: tuple[int, ...], room: Room | None) -> Packed:
+    """The images of an exact basis, and their files, in a room that holds it; else none."""
+    made = basis_of(values, which)
+    if room is None or not room.holds(made):
+        return {}
+    return {role: (own, exr.encoded(own)) for role, own in images_in(made, room).items()}
+
+
+AHEAD = Ahead(_packed)
+
+
+def _of_a_day(
+    owner: int, content: str, values: TanSettings, which: Sequence[int], day: float, room: Room
+) -> Basis:
+    """As `day_basis_of`, of an owner and for a content, which tell calls apart."""
+    del owner, content
+    return day_basis_of(values, which, day, room)
+
+
+DAYS = Ahead(_of_a_day)
+
+NAMES = {"rows": "s", "days": " Days", "places": " Places"} | dict.fromkeys(
+    map(GRID.format, range(5)), " Shares"
+)
+"""What images are called, by role."""
 
 
 def has_several(obj: bpy.types.Object) -> bool:
@@ -44,35 +77,141 @@ def is_at_hand(obj: bpy.types.Object) -> bool:
     """Whether `computed` takes no time; else a thread begins with it."""
     if not has_several(obj):
         return True
-    return AHEAD.is_at_hand(settings_of(obj).values(), tuple(which_masks(obj)))
+    return AHEAD.is_at_hand(*_exact(obj))
+
+
+def _exact(obj: bpy.types.Object) -> tuple[TanSettings, tuple[int, ...], Room | None]:
+    """Settings, masks of exposures, and the room that there is, of an object's exact picture."""
+    shown = shown_images(obj)
+    return settings_of(obj).values(), tuple(which_masks(obj)), room_of(shown) if shown else None
 
 
 def show(
-    obj: bpy.types.Object, group: bpy.types.NodeTree, made: Basis | None, changes: Changes
+    obj: bpy.types.Object,
+    group: bpy.types.NodeTree,
+    made: Basis | None,
+    changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
     """Have a tan's group show several masks, or one again; new images by former ones."""
     if made is None:
         several.take_out(obj, group, changes)
         return {}
-
-    def image(name: str, values) -> bpy.types.Image:
-        return images.packed_image(f"Skin Tan Mask{name} {obj.name}", values, is_colour=False)
-
+    room = room_for(made)
+    told = {
+        role: images.packed_image(f"Skin Tan Mask{NAMES[role]} {obj.name}", own, is_colour=False)
+        for role, own in images_in(made, room).items()
+    }
     shapes = several_nodes.Basis(
-        made.rank,
-        parts=made.parts,
-        step=basis.ROWS,
-        rows=image("s", made.rows),
-        days=image(" Days", made.places),
+        room.rank, parts=room.parts, step=basis.ROWS, rows=told["rows"], days=told["days"]
     )
     over_shares = several_nodes.Grid(
-        images=[image(" Shares", own) for own in grid.images_of(made.coefficients)],
-        places=image(" Places", grid.places_among(made.knots)),
-        strides=grid.strides_of(made.knots),
-        weights=[float(weight) for weight in made.weights],
+        [told[GRID.format(block)] for block in range(blocks_of(room.rank))], told["places"]
     )
-    shown = [shown_mask(obj, mask, changes) for mask in distinct_masks(obj)]
-    return several.show(obj, group, shapes, over_shares, shown, changes)
+    masks = distinct_masks(obj)
+    shown = [shown_mask(obj, mask, changes) for mask in masks]
+    return several.show(obj, group, shapes, over_shares, shown, called(masks), changes)
+
+
+def shown_images(obj: bpy.types.Object) -> dict[str, bpy.types.Image]:
+    """The images by which an object shows the masks of its settings; none if it does not."""
+    return several.own_images(settings_of(obj).group, called(distinct_masks(obj)))
+
+
+def room_of(shown: Mapping[str, bpy.types.Image]) -> Room:
+    """How much images hold."""
+    return room_in(tuple(shown["rows"].size), tuple(shown[GRID.format(0)].size))
+
+
+def is_in_place(obj: bpy.types.Object) -> bool:
+    """Whether an object shows the masks of its settings, so that others doses are other pixels."""
+    group = settings_of(obj).group
+    if nodes.own_history(group) is None or has_several(obj) != several.is_shown(group):
+        return False
+    return not has_several(obj) or bool(shown_images(obj))
+
+
+def fits(obj: bpy.types.Object) -> bool:
+    """Whether the images of an object that is in place hold what its settings lead to."""
+    sizes = [(own.shape[1], own.shape[0]) for own in _peeled(obj)]
+    if sizes != [tuple(image.size) for image in _peeling_images(obj)]:
+        return False
+    return not has_several(obj) or bool(_packed(*_exact(obj)))
+
+
+def show_exact(obj: bpy.types.Object, content: str) -> None:
+    """Put what an object's settings lead to into its images, which hold it; lasting.
+
+    Parameters
+    ----------
+    content : str
+        What it comes from: the settings.
+    """
+    told = _packed(*_exact(obj))
+    for role, image in shown_images(obj).items():
+        values, data = told[role]
+        images.swap_pixels(image, values, content, pack=True, data=data)
+    for image, own in zip(_peeling_images(obj), _peeled(obj), strict=True):
+        images.swap_pixels(image, own, content, pack=True)
+
+
+def _peeled(obj: bpy.types.Object) -> list[NDArray[np.float32]]:
+    """What peels, for one image or none."""
+    told = peeling_of(settings_of(obj).values(), which_masks(obj))
+    return [] if told is None else [told]
+
+
+def _peeling_images(obj: bpy.types.Object) -> tuple[bpy.types.Image, ...]:
+    return (nodes.own_history(settings_of(obj).group) or ())[2:]
+
+
+def show_day(obj: bpy.types.Object, content: str) -> bool:
+    """Have an object that is in place show this frame's day exactly, and all others roughly.
+
+    A thread computes it, so this must be called again until it shows.
+
+    Parameters
+    ----------
+    content : str
+        What it comes from: the settings.
+
+    Returns
+    -------
+    bool
+        Whether it shows, or is refused.
+    """
+    settings, shown = settings_of(obj), shown_images(obj)
+    day = timeline.shown_day(obj) or 0.0
+    owner, wanted = obj.session_uid, f"{content} on day {day}"
+    done = DAYS.taken(owner)
+    if done is not None:
+        (_, told, *_), made = done
+        if made is not None and room_of(shown).holds(made):
+            _show_roughly(shown, made, told)
+        elif told == wanted:
+            return True
+    if shown["rows"].get(images.SHOWN) == wanted:
+        return True
+    DAYS.is_at_hand(owner, wanted, settings.values(), which_masks(obj), day, room_of(shown))
+    return False
+
+
+def _show_roughly(shown: Mapping[str, bpy.types.Image], made: Basis, content: str) -> None:
+    """Put a basis into images that hold it, until the file is closed."""
+    told = images_in(made, room_of(shown))
+    # What shapes that are 0 are multiplied by does not matter.
+    spare = {GRID.format(block) for block in range(blocks_of(made.rank), len(told))}
+    for role, image in shown.items():
+        if role not in spare:
+            images.swap_pixels(image, told[role], content, pack=False)
+
+
+def called(masks: Sequence[Mask]) -> str:
+    """Says which masks these are."""
+    told = [
+        (own.source, own.image and own.image.name_full, own.uv_map, own.channel, own.invert)
+        for own in masks
+    ]
+    return repr([(*own, mask.strength) for own, mask in zip(told, masks, strict=True)])
 
 
 def remarks(

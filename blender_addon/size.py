@@ -8,7 +8,7 @@ from . import applied
 from .model.settings import LARGEST_SCALE, LEAST_SCALE
 from .model.size import times_life_size
 from .props import settings_of
-from .scene import images, nodes, size
+from .scene import images, several, size
 from .scene.changes import Changes
 from .scene.ownership import names
 from .tannable import tannable
@@ -45,8 +45,9 @@ def fit_size(obj: bpy.types.Object | None, scene: bpy.types.Scene, model_scale: 
             size.fit(other, scene, changes)
         if was_shown and settings.group is not None:
             applied.note(obj, applied.text_of(obj, scene), changes)
-            history = nodes.own_history(settings.group) or ()
-            images.note_content(history, applied.digest(settings.applied))
+            images.note_content(
+                several.own_history(settings.group), applied.digest(settings.applied)
+            )
     scale = f"{settings.model_scale:.3g}"
     said = f"{obj.name!r} is {'' if scale == '1' else f'{scale} times '}life-size."
     return f"{said} Light in the skin of {names(mended)} now fits its size." if mended else said

@@ -11,7 +11,7 @@ from .model.curve import curve_of, is_seen
 from .model.settings import check_days
 from .model.timing import OWN, SCENE, frames_of
 from .props import SkinTanSettings, settings_of
-from .scene import images, nodes, timeline
+from .scene import images, several, timeline
 from .scene.changes import Changes
 
 NEAR = 1.0
@@ -147,5 +147,4 @@ def _note_frames(
     if settings.group is None or applied.is_changed(obj, scene):
         return
     applied.note(obj, applied.text_of(obj, scene, seen), changes)
-    history = nodes.own_history(settings.group) or ()
-    images.note_content(history, applied.digest(settings.applied))
+    images.note_content(several.own_history(settings.group), applied.digest(settings.applied))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from blender_addon.model import basis, catalogue, grid, history
+from blender_addon.model import basis, catalogue, day_basis, grid, history, room
 from blender_addon.model.look_grid import COLOUR
 from hylios.colour_difference import ciede2000, lab
 from hylios.skin import Skin
@@ -24,6 +24,12 @@ SCHEDULES = ((30, 1), (30, 20), (60, 10), (365, 20))
 """Days and exposures of schedules for one mask."""
 
 MASKS, EXPOSURES_OF_MASK, DAYS = (2, 3, 5, 8), 4, 60
+
+SHOWN = 20
+"""The day of the frame that shows while somebody drags."""
+
+ROOM = room.Room(32_768, 12, 12)
+"""Of the images of five masks."""
 
 SIDE, SOFT = 316, 10.0
 """Vertices along the side of a square mesh, 99,856 in all; width of masks' edges in vertices."""
@@ -45,8 +51,8 @@ def main() -> None:
     for masks in MASKS:
         received = [joined(_doses(random, EXPOSURES_OF_MASK, DAYS, skin)) for _ in range(masks)]
         shares = _soft_masks(random, masks)
-        for name, precision in (("Apply", basis.FULL), ("dragging", basis.DRAG)):
-            _report_basis(random, skin, received, shares, f"{name}, {masks} masks", precision)
+        for name, day in (("Apply", None), (f"dragging, day {SHOWN}", SHOWN)):
+            _report_basis(random, skin, received, shares, f"{name}, {masks} masks", day)
 
 
 def _report_history(random, skin: Skin, received: Doses, days: int, name: str, precision) -> None:
@@ -72,8 +78,9 @@ def _report_history(random, skin: Skin, received: Doses, days: int, name: str, p
 
 
 def _report_basis(
-    random, skin: Skin, received: Sequence[Doses], shares: NDArray, name: str, precision
+    random, skin: Skin, received: Sequence[Doses], shares: NDArray, name: str, day: int | None
 ) -> None:
+    """All days of an exact basis, or the one that shows while dragging."""
     span: dict[str, Any] = {
         "first_day": 0.0,
         "last_day": float(DAYS),
@@ -82,15 +89,19 @@ def _report_basis(
     }
 
     def work():
-        made = basis.basis(received, skin.dynamics, precision=precision, **span)[0]
-        return made, grid.images_of(made.coefficients), grid.places_among(made.knots)
+        if day is None:
+            made = basis.basis(received, skin.dynamics, **span)[0]
+        else:
+            made = day_basis.day_basis(received, skin.dynamics, float(day), ROOM, **span)[0]
+        images = grid.images_of(made.coefficients)
+        return made, images, grid.places_among(made.knots, made.weights)
 
     (made, images, places), milliseconds = _timed(work)
-    hours = random.integers(0, 24 * DAYS, PLACES)
+    hours = random.integers(0, 24 * DAYS, PLACES) if day is None else np.full(PLACES, 24 * day)
     for where, faces, weights in _places(random):
         between = np.clip(np.einsum("nk,nkm->nm", weights, shares[faces]), 0.0, 1.0)
         part = basis.rows_at(made, hours / 24.0)[1]
-        told = places, grid.strides_of(made.knots), between, part, made.parts
+        told = places, between, part, made.parts
         seen = basis.shown(made, grid.coefficients_at(images, *told), hours / 24.0)
         errors = _errors(skin, seen, received, between, hours)
         size = f"{len(images)} images {images[0].shape[:2]}"

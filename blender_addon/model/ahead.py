@@ -21,9 +21,10 @@ class Ahead:
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:
-        self._function = function
+        self.function = function
         self._thread: Thread | None = None
         self._arguments: tuple[Any, ...] | None = None
+        self._result: Any = None
 
     def is_at_hand(self, *arguments: Any) -> bool:
         """Whether the last call was with these arguments, and is done; else it begins soon."""
@@ -36,6 +37,18 @@ class Ahead:
         self._thread.start()
         return False
 
+    def taken(self, first: object) -> tuple[tuple[Any, ...], Any] | None:
+        """Arguments and result of the last call, once it is done, if its first argument was this.
+
+        It is forgotten then. A call that was refused gives None.
+        """
+        is_busy = self._thread is None or self._thread.is_alive()
+        if is_busy or self._arguments is None or self._arguments[0] != first:
+            return None
+        taken, self._arguments = (self._arguments, self._result), None
+        return taken
+
     def _call(self, *arguments: Any) -> None:
+        self._result = None
         with suppress(InputError):
-            self._function(*arguments)
+            self._result = self.function(*arguments)

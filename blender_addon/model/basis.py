@@ -6,9 +6,11 @@ A point gets a share of the doses of every mask. Its coordinates (u, v, b; see `
 
 so a small image holds the mean and the phi_k, and others the coefficients a_k over the shares
 (`grid`). A part of `ROWS` rows of days has its own shapes and coefficients, since a few tell all of
-a few days; it begins with the row that ends the part before.
+a few days; it begins with the row that ends the part before. There are as many parts whatever the
+doses, so that their images keep their size; what is left over shows nothing.
 
-What a shader computes, for red, green and blue, which are u, v and b, with T rows in P parts:
+What a shader computes, for red, green and blue, which are u, v and b, with T = ROWS P + 1 rows in P
+parts:
 
 1. `day` to the place of a row: y is the green of `places`, sampled linearly at
    x = (.5 + (STEPS) (day - first_day) / (last_day - first_day)) / (STEPS + 1), y = .5;
@@ -103,7 +105,8 @@ class Basis:
     coefficients : (P, N, rank) float32 array
         Of the parts, at all knots, as `shares_of_grid` has them.
     rows : (T + P - 1, 1 + rank, 3) float32 array
-        u, v and b of the mean, and of the shapes, by day; the first row is that of the first day.
+        Of all parts: u, v and b of the mean, and of the shapes, by day; the first row is that of
+        the first day.
     places : (1, STEPS + 1, 3) float32 array
         Over even steps of the days, in green: the place among the rows.
     weights : (M,) array
@@ -195,27 +198,51 @@ def basis(
         erythema,
         darkens=darkens,
     )
-    knots = _knots(course, masks, precision, random)
+    knots = knots_of(course, masks, precision, random)
     shares = shares_of_grid(knots)
     counts = counts_of_grid(shares)
     order = np.argsort(-counts, kind="stable")
     often, others = order[:FREQUENT], order[FREQUENT:]
     training = np.append(often, random.permutation(others)[: TRAINING - FREQUENT])
     curves = course.seen(shares)
-    hours = course.hours
-    parts = _parts(curves, len(hours))
+    parts = parts_of(curves.reshape(len(curves), -1, len(course.hours)))
     shapes, coefficients, error = _shapes(parts, counts, training, precision)
-    places = np.zeros((1, STEPS + 1, 3), np.float32)
-    days = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
-    places[0, :, 1] = texel_places(days, hours, len(hours))
-    rows = np.concatenate([_rows(own, curves.shape[1] // len(hours)) for own in shapes])
-    doses = course.exposures.doses.sum(axis=1)
-    weights = doses / max(doses.sum(), 1e-30)
-    made = Basis(knots, coefficients, rows, places, weights, error, first_day, last_day)
+    given = np.zeros((-(-precision.rows // ROWS), *coefficients.shape[1:]), np.float32)
+    given[: len(coefficients)] = coefficients
+    days = first_day, last_day
+    made = put_together(course, course.hours, days, knots, shapes, given, error)
     return made, course.states(shares[often])
 
 
-def _knots(
+def put_together(
+    course: Course,
+    hours: NDArray,
+    days: tuple[float, float],
+    knots: tuple[NDArray[np.float64], ...],
+    shapes: Sequence[Shapes],
+    coefficients: NDArray[np.float32],
+    error: float,
+) -> Basis:
+    """A basis of shapes of some parts, and coefficients (P, N, rank) of all.
+
+    Parameters
+    ----------
+    hours : (T,) array
+        Those of the rows.
+    days : pair of float
+        The first and the last.
+    """
+    parts, (first_day, last_day) = len(coefficients), days
+    places = np.zeros((1, STEPS + 1, 3), np.float32)
+    even = 24.0 * np.linspace(first_day, last_day, STEPS + 1)
+    places[0, :, 1] = texel_places(even, hours, ROWS * parts + 1)
+    doses = course.exposures.doses.sum(axis=1)
+    weights = np.asarray(doses / max(doses.sum(), 1e-30), float)
+    rows = _rows(shapes, course.numbers, parts)
+    return Basis(knots, coefficients, rows, places, weights, error, first_day, last_day)
+
+
+def knots_of(
     course: Course, masks: int, precision: BasisPrecision, random: np.random.Generator
 ) -> tuple[NDArray[np.float64], ...]:
     """Knots of the share of every mask, by how the tan bends over it beside others' shares."""
@@ -235,20 +262,21 @@ def _knots(
     return knots_within(across, lines, precision.points, precision.tolerance)
 
 
-def _parts(curves: NDArray[np.float32], hours: int) -> list[NDArray[np.float32]]:
-    """Parts of the hours of curves (N, numbers times hours), as such curves."""
-    by_number = curves.reshape(len(curves), -1, hours)
-    starts = range(0, max(hours - 1, 1), ROWS)
-    return [by_number[:, :, a : a + ROWS + 1].reshape(len(curves), -1) for a in starts]
+def parts_of(curves: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+    """Parts of the hours of curves (N, numbers, hours), as curves (N, numbers times hours)."""
+    starts = range(0, max(curves.shape[2] - 1, 1), ROWS)
+    return [curves[:, :, a : a + ROWS + 1].reshape(len(curves), -1) for a in starts]
 
 
-def _rows(shapes: Shapes, numbers: int) -> NDArray[np.float32]:
-    """The mean and shapes (rows, 1 + rank, 3) of a part, of as many numbers."""
-    lines = np.concatenate([shapes.mean[None], shapes.shapes])
-    hours = lines.shape[1] // numbers
-    rows = np.zeros((hours, len(lines), 3), np.float32)
-    rows[..., :numbers] = lines.reshape(-1, numbers, hours).transpose(2, 0, 1) / WEIGHTS[:numbers]
-    return rows
+def _rows(shapes: Sequence[Shapes], numbers: int, parts: int) -> NDArray[np.float32]:
+    """The means and shapes (T + P - 1, 1 + rank, 3) of so many parts, of as many numbers."""
+    rows = np.zeros((parts, ROWS + 1, 1 + len(shapes[0].shapes), 3), np.float32)
+    for part, own in zip(rows, shapes, strict=False):
+        lines = np.concatenate([own.mean[None], own.shapes])
+        told = lines.reshape(len(lines), numbers, -1).transpose(2, 0, 1) / WEIGHTS[:numbers]
+        part[: len(told), :, :numbers] = told
+        part[len(told) :] = part[len(told) - 1]
+    return rows.reshape(-1, *rows.shape[2:])
 
 
 def _shapes(

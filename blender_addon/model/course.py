@@ -51,6 +51,11 @@ class Course:
         """Those that are told, (T,)."""
         return self.marks[self.marks >= self.first]
 
+    @property
+    def numbers(self) -> int:
+        """How many coordinates of a point change."""
+        return 2 if self.burns is None else 3
+
     def states(self, shares: NDArray[np.float64]) -> NDArray[np.floating]:
         """States (T, N, 4), or (T, N, 5) of skin that reddens, of points with shares (N, M)."""
         seen = states_seen(self.energies, shares, self.marks, np.float32, self.burns)
@@ -58,7 +63,7 @@ class Course:
 
     def seen(self, shares: NDArray[np.float64]) -> NDArray[np.float32]:
         """u, v and where skin reddens b of points (N, 2 T or 3 T), as they count."""
-        numbers = 2 if self.burns is None else 3
+        numbers = self.numbers
         curves = np.empty((len(shares), numbers, len(self.hours)), np.float32)
         for start in range(0, len(shares), CHUNK):
             part = slice(start, start + CHUNK)

@@ -9,17 +9,23 @@ texels, not 256.
 
 An image holds three coefficients, of knots in `COLUMNS` columns: those of the last mask change
 fastest. Parts of the days (`basis`) lie above one another, R rows of texels to a part. What a
-shader computes from shares s_1 to s_M, all without interpolation of texels:
+shader computes from shares s_1 to s_M, all without interpolation of texels; W is the number of rows
+of `places`:
 
-1. for every mask m: i_m and f_m are the red and the green of `places` at
-   x = (.5 + STEPS s_m) / (STEPS + 1) and y = (.5 + m - 1) / M: a knot, and the part of the way to
-   the next one.
-2. n_0 = sum of i_m stride_m, where stride_m is the number of knots of all later masks together.
-3. F_1 to F_M: f in descending order. n_k = n_0 + the sum of stride_m where f_m >= F_k.
-4. the sum over k = 0 to M of (F_k - F_(k + 1)) times the texel of n_k, with F_0 = 1, F_(M + 1) = 0:
-   in row p R + floor(n_k / COLUMNS) from the bottom for part p, and column n_k modulo COLUMNS.
+1. for every mask m: N_m, f_m and d_m are the red, green and blue of `places` at
+   x = (.5 + STEPS s_m) / (STEPS + 1) and y = (.5 + m - 1) / W: the knot times the mask's stride,
+   the part of the way to the next one, and minus the stride, which is the number of knots of all
+   later masks together.
+2. n_0 = sum of N_m.
+3. F_1 to F_M: f in descending order. n_k = n_0 - the sum of d_m where f_m >= F_k.
+4. the sum over k = 0 to M of (F_k - F_(k + 1)) times the texel of n_k, where F_0 = 1 and
+   F_(M + 1) = 0: in row p R + floor(n_k / COLUMNS) from the bottom for part p, and column n_k
+   modulo COLUMNS.
+5. the share of all doses: the sum of w_m s_m, where w_1 to w_3 are the channels of row M, w_4 to
+   w_6 those of row M + 1, and so on.
 
-`coefficients_at` is the same in numpy.
+So other knots, doses or days are other pixels; no node knows of them. `coefficients_at` is the same
+in numpy.
 """
 
 from collections.abc import Sequence
@@ -99,30 +105,53 @@ def strides_of(knots: Sequence[NDArray[np.float64]]) -> tuple[int, ...]:
     return tuple(int(np.prod(counts[mask + 1 :])) for mask in range(len(counts)))
 
 
-def places_among(knots: Sequence[NDArray[np.float64]]) -> NDArray[np.float32]:
-    """The image (masks, STEPS + 1, 3) of the place of a share among a mask's knots."""
-    steps = np.linspace(0.0, 1.0, STEPS + 1)
-    image = np.zeros((len(knots), STEPS + 1, 3), np.float32)
-    for row, own in zip(image, knots, strict=True):
+def places_among(
+    knots: Sequence[NDArray[np.float64]], weights: NDArray[np.float64]
+) -> NDArray[np.float32]:
+    """The image (rows, STEPS + 1, 3) of the places of shares among the masks' knots.
+
+    Parameters
+    ----------
+    weights : (masks,) array
+        Of the masks' shares in the share of all doses: in the last rows.
+    """
+    steps, apart = np.linspace(0.0, 1.0, STEPS + 1), strides_of(knots)
+    image = np.zeros((len(knots) + rows_of_weights(len(knots)), STEPS + 1, 3), np.float32)
+    for row, own, stride in zip(image, knots, apart, strict=False):
         place = np.interp(steps, own, np.arange(len(own)))
-        row[:, 0] = np.minimum(np.floor(place), len(own) - 2)
-        row[:, 1] = place - row[:, 0]
+        knot = np.minimum(np.floor(place), len(own) - 2)
+        row[:, 0], row[:, 1], row[:, 2] = knot * stride, place - knot, -stride
+    told = np.zeros((len(image) - len(knots), 3))
+    told.flat[: len(knots)] = weights
+    image[len(knots) :] = told[:, None]
     return image
 
 
-def images_of(coefficients: NDArray) -> list[NDArray[np.float32]]:
-    """Images (rows, COLUMNS, 3) of coefficients (parts, N, rank), the rank a multiple of 3."""
-    _, count, rank = coefficients.shape
-    wanted = -count % COLUMNS
-    padded = np.pad(coefficients, ((0, 0), (0, wanted), (0, 0)), mode="edge")
-    table = padded.astype(np.float32).reshape(-1, COLUMNS, rank)
+def rows_of_weights(masks: int) -> int:
+    """Rows of `places_among` with the weights of so many masks."""
+    return -(-masks // CHANNELS)
+
+
+def images_of(coefficients: NDArray, points: int = 0) -> list[NDArray[np.float32]]:
+    """Images (rows, COLUMNS, 3) of coefficients (parts, N, rank), the rank a multiple of 3.
+
+    Parameters
+    ----------
+    points : int
+        Texels of a part, if more than the coefficients need.
+    """
+    parts, count, rank = coefficients.shape
+    wanted = max(points, count)
+    wanted += -wanted % COLUMNS
+    padded = np.zeros((parts, wanted, rank), np.float32)
+    padded[:, :count] = coefficients
+    table = padded.reshape(-1, COLUMNS, rank)
     return [table[..., b : b + CHANNELS] for b in range(0, rank, CHANNELS)]
 
 
 def coefficients_at(
     images: Sequence[NDArray],
     places: NDArray,
-    strides: Sequence[int],
     shares: NDArray,
     part: NDArray[np.int_],
     parts: int,
@@ -131,14 +160,13 @@ def coefficients_at(
     column = np.floor(shares * STEPS + 0.5).astype(int)
     told = places[np.arange(shares.shape[1]), column].astype(float)
     table = np.concatenate(images, axis=-1).reshape(-1, len(images) * CHANNELS)
-    apart = np.asarray(strides, int)
     start = part * (len(table) // parts)
-    first = np.asarray(start + told[..., 0].astype(int) @ apart, int)
-    along = told[..., 1]
+    first, along, apart = start + told[..., 0].sum(axis=1), told[..., 1], told[..., 2]
     ordered = np.pad(-np.sort(-along, axis=1), ((0, 0), (1, 1)), constant_values=(1.0, 0.0))
     weights = -np.diff(ordered, axis=1)
-    total = weights[:, :1] * table[first]
-    for k in range(1, weights.shape[1]):
-        point = np.asarray(first + (along >= ordered[:, k : k + 1]) @ apart, int)
-        total += weights[:, k : k + 1] * table[point]
-    return np.asarray(total, float)
+    total = np.zeros((len(shares), table.shape[1]))
+    for k in range(weights.shape[1]):
+        passed = along >= ordered[:, k : k + 1]
+        point = first - (passed * apart).sum(axis=1) if k else first
+        total += weights[:, k : k + 1] * table[point.astype(int)]
+    return total

@@ -4,6 +4,7 @@ import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +21,12 @@ from .basis import DRAG as DRAG_BASIS
 from .basis import FULL as FULL_BASIS
 from .basis import Basis, basis
 from .biology import table_with
+from .day_basis import day_basis
 from .history import FULL, History, Precision, history
 from .look import Look, look
 from .peeling import peeling_image
 from .response import Response, melanin_of, response_of, tells_skin
+from .room import Room
 from .settings import Exposure, TanSettings, check_days
 
 
@@ -247,29 +250,62 @@ def basis_of(settings: TanSettings, which: Sequence[int], *, rough: bool = False
 def _basis(
     settings: TanSettings, stamp: tuple[int, int], which: tuple[int, ...], rough: bool
 ) -> Basis:
-    table = catalogue.table(settings.table)
-    minimal = settings.minimal_doses(table.provenance)
+    made, states = basis(
+        _received_by_masks(settings, which),
+        _response(settings).melanin,
+        precision=DRAG_BASIS if rough else FULL_BASIS,
+        **_how(settings),
+    )
+    _require_held(catalogue.table(settings.table), states)
+    return made
+
+
+def day_basis_of(settings: TanSettings, which: Sequence[int], day: float, room: Room) -> Basis:
+    """The coordinates over the shares of several masks, exactly on one day and roughly on others.
+
+    Parameters
+    ----------
+    which, errors
+        As of `basis_of`.
+    room : Room
+        Of the images that are to show it.
+    """
+    received = _received_by_masks(settings, which)
+    melanin = _response(settings).melanin
+    made, states = day_basis(received, melanin, day, room, **_how(settings))
+    _require_held(catalogue.table(settings.table), states)
+    return made
+
+
+def _received_by_masks(settings: TanSettings, which: Sequence[int]) -> list[Doses]:
+    """Doses on bare skin, by mask."""
+    header = catalogue.table(settings.table).provenance
+    mmd = settings.minimal_doses(header).mmd
     told = list(zip(settings.exposures, which, strict=True))
-    by_mask = [
-        doses.received(
-            [exposure for exposure, own in told if own == mask], minimal.mmd, table.provenance
-        )
+    return [
+        doses.received([exposure for exposure, own in told if own == mask], mmd, header)
         for mask in range(len(set(which)))
     ]
-    response = response_of(table, settings.kinetics, settings.redness, settings.darkening)
-    made, states = basis(
-        by_mask,
-        response.melanin,
-        mmd=minimal.mmd,
-        med=minimal.med,
-        first_day=settings.first_day,
-        last_day=settings.last_day,
-        precision=DRAG_BASIS if rough else FULL_BASIS,
-        erythema=response.erythema,
-        darkens=response.darkens,
-    )
-    _require_held(table, states)
-    return made
+
+
+def _response(settings: TanSettings) -> Response:
+    """Of an object's skin to the doses."""
+    table = catalogue.table(settings.table)
+    return response_of(table, settings.kinetics, settings.redness, settings.darkening)
+
+
+def _how(settings: TanSettings) -> dict[str, Any]:
+    """What both kinds of basis take by name."""
+    response = _response(settings)
+    minimal = settings.minimal_doses(catalogue.provenance(settings.table))
+    return {
+        "mmd": minimal.mmd,
+        "med": minimal.med,
+        "first_day": settings.first_day,
+        "last_day": settings.last_day,
+        "erythema": response.erythema,
+        "darkens": response.darkens,
+    }
 
 
 def _require_held(table: SkinTable, states: NDArray) -> None:

@@ -69,17 +69,16 @@ def packed_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types
         # EEVEE would keep 11 bits, too few for a place between two texels.
         cast(Any, image).use_half_precision = False
     image[MARK] = image.name
-    _pack(image, values)
+    _pack(image, exr.encoded(values))
     return image
 
 
-def _pack(image: bpy.types.Image, values: np.ndarray) -> None:
-    """Pack values into a float image, which shows what is packed from now on.
+def _pack(image: bpy.types.Image, data: bytes) -> None:
+    """Pack a file into a float image, which shows what is packed from now on.
 
     Blender takes pixels that are set for numbers of its working space; those that it reads from
     the packed file it converts.
     """
-    data = exr.encoded(values)
     cast(Any, image).pack(data=data, data_len=len(data))
     if image.source != "FILE":
         image.source = "FILE"
@@ -99,7 +98,14 @@ def _set_pixels(image: bpy.types.Image, values: np.ndarray) -> None:
     image.update()
 
 
-def swap_pixels(image: bpy.types.Image, values: np.ndarray, content: str, *, pack: bool) -> None:
+def swap_pixels(
+    image: bpy.types.Image,
+    values: np.ndarray,
+    content: str,
+    *,
+    pack: bool,
+    data: bytes | None = None,
+) -> None:
     """Put other numbers (rows, columns, 3) into an image that a file keeps.
 
     A new image in place of it would be no more than a pointer into nothing after an undo, unless a
@@ -111,6 +117,8 @@ def swap_pixels(image: bpy.types.Image, values: np.ndarray, content: str, *, pac
         What the numbers come from, for `restore`.
     pack : bool
         Whether they last beyond the closing of the file; that takes longer.
+    data : bytes, optional
+        Their file (`exr.encoded`), where it has been made before.
     """
     rows, columns, _ = values.shape
     if tuple(image.size) != (columns, rows):
@@ -118,7 +126,7 @@ def swap_pixels(image: bpy.types.Image, values: np.ndarray, content: str, *, pac
     _set_pixels(image, values)
     image[SHOWN] = content
     if pack:
-        _pack(image, values)
+        _pack(image, data or exr.encoded(values))
         image[LASTING] = content
 
 

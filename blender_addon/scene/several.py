@@ -14,7 +14,7 @@ from typing import Any, cast
 
 import bpy
 
-from . import several_nodes
+from . import nodes, several_nodes
 from .changes import Changes
 from .images import remove_if_unused
 from .mask_nodes import ShownMask
@@ -23,7 +23,7 @@ from .ownership import remembered
 from .places import copy_place
 from .plan import LINKS, Link, Role
 from .replaced import remove_nodes, show_tree
-from .several_nodes import ATTRIBUTES_KEY, Basis, Grid
+from .several_nodes import ATTRIBUTES_KEY, MASKS_KEY, Basis, Grid
 from .vertex_groups import remove_attribute
 
 GRID = "grid_{}"
@@ -46,6 +46,29 @@ def is_shown(group: bpy.types.NodeTree) -> bool:
     return any(of_role(group, "basis"))
 
 
+def own_images(group: bpy.types.NodeTree, masks: str | None = None) -> dict[str, bpy.types.Image]:
+    """The images by which a group shows masks, by role; none where it shows something else.
+
+    Parameters
+    ----------
+    masks : str, optional
+        Which masks it must be, as `show` was given.
+    """
+    trees = [node.node_tree for node in of_role(group, "basis")]
+    kept = {role: image for role, key in IMAGE_KEYS.items() if (image := group.get(key))}
+    inner: list[Any] = [node for tree in trees if tree is not None for node in tree.nodes]
+    shown = {node.image for node in inner if node.bl_idname == "ShaderNodeTexImage"}
+    told = [None if tree is None else tree.get(MASKS_KEY) for tree in trees]
+    is_whole = len(told) == 1 and told[0] is not None and masks in (None, told[0])
+    return kept if is_whole and set(kept.values()) <= shown else {}
+
+
+def own_history(group: bpy.types.NodeTree) -> tuple[bpy.types.Image, ...]:
+    """The images of a group's history that were made for it: of one mask or of several."""
+    own = nodes.own_history(group) or ()
+    return (*own_images(group).values(), *own[2:]) if is_shown(group) else own
+
+
 def made_images(group: bpy.types.NodeTree) -> list[bpy.types.Image]:
     """The images that were made for a group's basis, as far as they are still in the file."""
     return [image for key in IMAGE_KEYS.values() if (image := group.get(key)) is not None]
@@ -57,14 +80,22 @@ def show(
     basis: Basis,
     grid: Grid,
     masks: Sequence[ShownMask],
+    called: str,
     changes: Changes,
 ) -> dict[bpy.types.Image, bpy.types.Image]:
-    """Have a tan's group show several masks; which new image replaces which former one."""
+    """Have a tan's group show several masks; which new image replaces which former one.
+
+    Parameters
+    ----------
+    called : str
+        Says which masks these are, for `own_images`.
+    """
     (*_, rows) = of_role(group, "rows")
     node = next(of_role(group, "basis"), None)
     made = {"rows": basis.rows, "days": basis.days, "places": grid.places}
     made |= {GRID.format(block): image for block, image in enumerate(grid.images)}
     tree = several_nodes.over_shares(f"Skin Tan Masks {obj.name}", basis, grid, masks, changes)
+    tree[MASKS_KEY] = called
     remove_attributes(obj, group, changes)
     changes.may_add_to(group.nodes)
     changes.may_relink(group)

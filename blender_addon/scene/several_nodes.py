@@ -19,6 +19,9 @@ ATTRIBUTES_KEY = "skin_tan_basis"
 """Custom property of our groups of nodes, and in earlier versions of a mesh: the attributes that
 Apply made for several masks, as JSON."""
 
+MASKS_KEY = "skin_tan_masks"
+"""Custom property of a group that reads masks: which, in words."""
+
 DAYS = "basis_days"
 """Role of the node that shows where days lie among the rows."""
 
@@ -53,17 +56,11 @@ class Grid:
     images : sequence of Image
         Of three coefficients each.
     places : Image
-        Of shares among the knots of masks.
-    strides : sequence of int
-        How far apart points of neighbouring knots are, by mask.
-    weights : sequence of float
-        Of the masks' shares in the share of all doses.
+        Of shares among the knots of masks, and the masks' weights in the share of all doses.
     """
 
     images: Sequence[bpy.types.Image]
     places: bpy.types.Image
-    strides: Sequence[int]
-    weights: Sequence[float]
 
 
 def over_shares(
@@ -75,9 +72,7 @@ def over_shares(
     for number, mask in enumerate(masks):
         share = mask_nodes.added(made.tree, mask, changes, f"mask_{number}_")
         shares.append(share.outputs[0])
-    whole = None
-    for share, weight in zip(shares, grid.weights, strict=True):
-        whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole or 0.0)
+    whole = _share_of_all(made, grid.places, shares)
     day, part = made.day(basis)
     points = _points(made, grid, shares, part, basis.parts)
     coefficients: list[Any] = []
@@ -118,29 +113,47 @@ def peeling_of_masks(
     return made.tree
 
 
+def _share_of_all(made: "_Tree", places: bpy.types.Image, shares: Sequence[Any]) -> Any:
+    """The share of all doses: one of the shares, each with its weight."""
+    rows = places.size[1]
+    weights: list[Any] = []
+    while len(weights) < len(shares):
+        y = (len(shares) + len(weights) // 3 + 0.5) / rows
+        told = made.image(places, "Weights", made.place(0.5, y), closest=True)
+        weights += made.parts(told, made.at)
+    whole = 0.0
+    for share, weight in zip(shares, weights, strict=False):
+        whole = made.math("MULTIPLY_ADD", "Share of all doses", share, weight, whole)
+    return whole
+
+
 def _points(
     made: "_Tree", grid: Grid, shares: Sequence[Any], part: Any, parts: int
 ) -> list[tuple[Any, Any]]:
     """Places in an image of the points around some shares, in a part of the days; their weights."""
     columns, rows = grid.places.size
-    first, along = None, []
-    for mask, (share, stride) in enumerate(zip(shares, grid.strides, strict=True)):
+    first: Any = 0.0
+    last: Any = 0.0
+    along, apart = [], []
+    for mask, share in enumerate(shares):
         x = made.math("MULTIPLY_ADD", "Step", share, (columns - 1) / columns, 0.5 / columns)
         place = made.place(x, (mask + 0.5) / rows)
         told = made.parts(made.image(grid.places, "Knot", place, closest=True), made.at)
-        first = made.math("MULTIPLY_ADD", "First point", told[0], float(stride), first or 0.0)
+        first = made.math("ADD", "First point", told[0], first)
+        last = made.math("SUBTRACT", "Last point", last, told[2])
         along.append(told[1])
+        apart.append(told[2])
+    last = made.math("ADD", "Last point", last, first)
     ordered = _descending(made, along)
-    last = made.math("ADD", "Last point", first, float(sum(grid.strides)))
     size = tuple(grid.images[0].size)
     start = made.math("MULTIPLY_ADD", "Row of the part", part, 1.0 / parts, 0.5 / size[1])
     points = []
     for k, (before, after) in enumerate(zip([1.0, *ordered], [*ordered, 0.0], strict=True)):
         number = last if k else first
         # With the last one every mask is at its next knot.
-        for own, stride in zip(along, grid.strides, strict=True) if 0 < k < len(along) else ():
+        for own, stride in zip(along, apart, strict=True) if 0 < k < len(along) else ():
             is_less = made.math("LESS_THAN", "Whether it goes later", own, before)
-            number = made.math("MULTIPLY_ADD", "Point", is_less, -float(stride), number)
+            number = made.math("MULTIPLY_ADD", "Point", is_less, stride, number)
         weight = made.math("SUBTRACT", "Weight of the point", before, after)
         points.append((_texel(made, number, size, start), weight))
     return points

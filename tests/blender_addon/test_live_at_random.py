@@ -1,19 +1,23 @@
 """Live under many changes in any order, with undo, redo, saving and loading between them."""
 
+import time
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from artist_skins import mixed, wear
-from scenes import apply, of_role, pixels, tan_object
+from scenes import add_mask, apply, of_role, pixels, tan_object
 
-from blender_addon import applied, live, timers
-from blender_addon.model import catalogue
+from blender_addon import applied, live, several, timers
+from blender_addon.model import catalogue, day_basis, room, tan
 from blender_addon.model.own_colour import offsets
 from blender_addon.model.tan import history_of, look_of, peeling_of
 from blender_addon.scene import exr, own_colour, peeling
 
 FEW, MANY = 60, 500
 SEEDS = (1, 2, 3)
+MASKS = ("bikini", "shirt", "shorts", "socks", "hat")
 
 
 def body():
@@ -30,7 +34,9 @@ class Artist:
     def change(self) -> None:
         settings = body().skin_tan
         kind = self.random.integers(13)
-        if kind == 0:
+        if body().data.attributes.get(MASKS[0]) and self.random.random() < 0.9:
+            self.change_of_masks(settings.exposures)
+        elif kind == 0:
             settings.last_day = float(self.random.uniform(8.0, 40.0))
         elif kind == 1 and len(settings.exposures) < 5:
             bpy.ops.skin_tan.add_exposure()
@@ -58,6 +64,21 @@ class Artist:
         else:
             settings.exposures[0].dose = float(self.random.uniform(0.0, 40.0))
 
+    def change_of_masks(self, exposures) -> None:
+        """Mostly a dose; now and then, which masks there are."""
+        exposure = exposures[self.random.integers(len(exposures))]
+        kind = self.random.integers(20)
+        if kind == 0:
+            exposure.enabled = not exposure.enabled
+        elif kind == 1:
+            exposure.mask.source = str(self.random.choice(MASKS))
+        elif kind == 2:
+            exposure.mask.strength = float(self.random.choice([0.5, 1.0]))
+        elif kind == 3:
+            exposure.day = float(self.random.integers(0, 20))
+        else:
+            exposure.dose = float(self.random.uniform(0.0, 40.0))
+
     def push(self) -> None:
         bpy.ops.ed.undo_push(message="change")
 
@@ -70,7 +91,7 @@ class Artist:
             bpy.ops.ed.redo()
 
     def save_and_load(self) -> None:
-        live.make_exact()
+        rest()
         bpy.ops.wm.save_as_mainfile(filepath=self.path)
         bpy.ops.wm.open_mainfile(filepath=self.path)
 
@@ -83,10 +104,18 @@ class Artist:
             self.random.choice(np.array(kinds, object), p=weights)()
 
 
+def rest() -> None:
+    """Blender calls timers until nothing is left to do."""
+    end = time.monotonic() + 120.0
+    for timer in (live.show_changes, live.make_exact):
+        while timer() is not None:
+            assert time.monotonic() < end
+            time.sleep(0.001)
+
+
 def settled() -> None:
     """After a rest the tan is that of the settings, and no image is lost."""
-    live.show_changes()
-    live.make_exact()
+    rest()
     obj, scene = body(), bpy.context.scene
     if obj.skin_tan.undone == applied.text_of(obj, scene):
         apply(obj)  # an undo has led back between a setting and its Apply
@@ -94,15 +123,23 @@ def settled() -> None:
     assert not applied.is_changed(obj, scene)
     values = obj.skin_tan.values()
     history, look = history_of(values), look_of(values)
-    _require_shown(obj, "states", history.coordinates)
-    _require_shown(obj, "rows", history.lines)
+    shown = several.shown_images(obj)
+    assert bool(shown) == several.has_several(obj)
+    if shown:
+        made = several.computed(obj)
+        for role, told in room.images_in(made, several.room_of(shown)).items():
+            np.testing.assert_array_equal(pixels(shown[role])[..., :3], exr.rounded(told))
+    else:
+        _require_shown(obj, "states", history.coordinates)
+        _require_shown(obj, "rows", history.lines)
     _require_shown(obj, "colour", look.colours)
     assert own_colour.is_shown(obj.skin_tan.group) == obj.skin_tan.own_colour
     if obj.skin_tan.own_colour:
         _require_shown(obj, "own_image", offsets(look))
     assert peeling.is_shown(obj.skin_tan.group) == obj.skin_tan.peeling
     if obj.skin_tan.peeling:
-        _require_shown(obj, "peel_image", peeling_of(values))
+        which = several.which_masks(obj) if shown else None
+        _require_shown(obj, "peel_image", peeling_of(values, which))
     for image in bpy.data.images:
         assert image.packed_file is not None and image.size[0] > 0
 
@@ -112,11 +149,12 @@ def _require_shown(obj, role: str, values: np.ndarray) -> None:
     np.testing.assert_array_equal(shown, exr.rounded(values))
 
 
-def run(seed: int, folder, steps: int) -> None:
+def run(seed: int, folder, steps: int, rests: int = 20) -> None:
+    """So many steps, and a rest after every few."""
     artist = Artist(seed, folder)
     for number in range(steps):
         artist.step()
-        if number % 20 == 19:
+        if number % rests == rests - 1:
             settled()
     settled()
 
@@ -131,12 +169,44 @@ def tanned(monkeypatch):
     bpy.ops.ed.undo_push(message="applied")
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.fixture
+def masked(tanned, monkeypatch, tmp_path):
+    """As above, with five exposures that have four masks, told roughly, in a file."""
+    fewer = replace(tan.FULL_BASIS, points=400, steps=32, rows=96, rounds=1)
+    monkeypatch.setattr(tan, "FULL_BASIS", fewer)
+    monkeypatch.setattr(tan, "DRAG_BASIS", replace(fewer, points=100, ranks=(6,)))
+    for name in ("DAY", "OTHERS"):
+        monkeypatch.setattr(day_basis, name, replace(fewer, points=100, steps=16, rows=32))
+    tan._basis.cache_clear()
+    obj = body()
+    exposures = obj.skin_tan.exposures
+    for number, name in enumerate(MASKS):
+        add_mask(obj, np.full(4, 0.2 * number), name)
+        exposure = exposures[0] if number == 0 else exposures.add()
+        exposure.day, exposure.dose, exposure.own_mask = 3.0 * number, 9.0, True
+        exposure.mask.source = MASKS[min(number, 3)]
+    apply(obj)
+    Artist(0, tmp_path).save_and_load()
+    yield
+    tan._basis.cache_clear()
+
+
+@pytest.mark.parametrize("seed", SEEDS[:2])
 def test_a_few_changes(tanned, tmp_path, seed):
     run(seed, tmp_path, FEW)
+
+
+def test_a_few_changes_of_masks(masked, tmp_path):
+    run(4, tmp_path, FEW // 2, rests=5)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", SEEDS)
 def test_many_changes(tanned, tmp_path, seed):
     run(seed, tmp_path, MANY)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", SEEDS)
+def test_many_changes_of_masks(masked, tmp_path, seed):
+    run(seed, tmp_path, MANY, rests=5)

@@ -40,3 +40,12 @@ def test_what_is_refused_is_at_hand(capfd):
     assert not ahead.is_at_hand(1)
     until_done(ahead, 1)
     assert not capfd.readouterr().err
+
+
+def test_a_result_is_taken_once_by_whom_it_is_for():
+    ahead = Ahead(lambda owner, number: number + 1)
+    assert not ahead.is_at_hand("a", 1)
+    until_done(ahead, "a", 1)
+    assert ahead.taken("b") is None
+    assert ahead.taken("a") == (("a", 1), 2)
+    assert ahead.taken("a") is None

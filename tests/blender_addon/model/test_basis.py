@@ -14,7 +14,6 @@ from blender_addon.model.grid import (
     knots_within,
     places_among,
     shares_of_grid,
-    strides_of,
 )
 from blender_addon.model.look import look
 from blender_addon.model.response import response_of
@@ -96,8 +95,7 @@ def seen(made, shares: np.ndarray, days) -> np.ndarray:
     days = np.broadcast_to(days, len(shares))
     coefficients = coefficients_at(
         images_of(made.coefficients),
-        places_among(made.knots),
-        strides_of(made.knots),
+        places_among(made.knots, made.weights),
         shares,
         rows_at(made, days)[1],
         made.parts,
@@ -178,9 +176,12 @@ def test_what_runs_straight_is_exact(masks):
     slopes = random.normal(size=(masks, 3))
     own = shares_of_grid(knots) @ slopes
     shares = random.integers(0, 1025, (50, masks)) / 1024.0
-    how = places_among(knots), strides_of(knots), shares, random.integers(0, 2, 50), 2
-    given = coefficients_at(images_of(np.stack([own, own + 1.0])), *how)
-    assert given == pytest.approx(shares @ slopes + how[3][:, None], abs=1e-5)
+    part, weights = random.integers(0, 2, 50), random.random(masks)
+    images = images_of(np.stack([own, own + 1.0]), 3000 if masks == 2 else 0)
+    places = places_among(knots, weights)
+    given = coefficients_at(images, places, shares, part, 2)
+    assert given == pytest.approx(shares @ slopes + part[:, None], abs=1e-5)
+    assert places[masks:, 0].ravel()[:masks] == pytest.approx(weights)
 
 
 @pytest.mark.parametrize(("first_day", "last_day"), [(0.0, 12.0), (3.3, 11.07)])
@@ -198,7 +199,7 @@ def test_a_span_of_hours():
     received = [of_sed(5, 20.0), of_sed(0, 20.0)]
     made = of(received, 0.5)
     shares = points(np.random.default_rng(8), 40, 2)
-    assert made.parts == 1
+    assert made.parts == FEW.rows // 16
     assert errors(made, received, shares, np.full(40, 8.0)).max() < ERRORS["at 99 %"]
 
 

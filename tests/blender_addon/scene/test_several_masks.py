@@ -13,8 +13,8 @@ from scenes import add_mask, apply, of_role, tan_group, tan_object
 
 from blender_addon import applied, live, several, timers
 from blender_addon.model.ahead import Ahead
-from blender_addon.model.tan import basis_of
-from blender_addon.scene import masks
+from blender_addon.scene import exr, masks
+from blender_addon.scene import several as scene_several
 from blender_addon.scene.nodes import role_of
 
 SHARES = np.array(
@@ -62,8 +62,9 @@ def test_every_point_is_as_simulated(body, tmp_path):
 
 
 def test_the_share_is_that_of_all_doses(body, tmp_path):
+    """To the 16 binary digits of an image."""
     apply(body)
-    whole = SHARES @ DOSES / np.sum(DOSES)
+    whole = SHARES @ exr.rounded(np.array(DOSES) / np.sum(DOSES))
     assert rendered(body, tmp_path, "Share")[:, 0] == pytest.approx(whole, abs=1e-6)
 
 
@@ -112,12 +113,10 @@ def test_remove_tan_takes_all_away(body):
 
 @pytest.mark.provokes
 def test_an_error_leaves_all_as_it_was(body, monkeypatch):
-    from blender_addon.scene import several
-
     apply(body)
     before = counts(), len(tan_group(body).links)
     body.skin_tan.exposures[0].dose = 55.0
-    monkeypatch.setattr(several, "_replaced", lambda *_: 1 / 0)
+    monkeypatch.setattr(scene_several, "_replaced", lambda *_: 1 / 0)
     with pytest.raises((RuntimeError, ZeroDivisionError)):
         apply(body)
     assert (counts(), len(tan_group(body).links)) == before
@@ -150,18 +149,23 @@ def test_what_an_earlier_version_wrote_onto_the_mesh_goes(body):
     assert not own_attributes(body) and "skin_tan_basis" not in body.data
 
 
-def test_live_becomes_exact_without_a_wait(body, monkeypatch):
-    """A thread computes what takes seconds; until then the rough picture stays."""
-    monkeypatch.setattr(several, "AHEAD", Ahead(basis_of))  # no other test was here
+def test_another_dose_is_other_pixels(body, tmp_path, monkeypatch):
+    """No node or image is made: the day of this frame shows rightly at once, then all do."""
+    for name in ("AHEAD", "DAYS"):  # no other test was here
+        monkeypatch.setattr(several, name, Ahead(getattr(several, name).function))
     monkeypatch.setattr(timers, "are_called", lambda: True)
     monkeypatch.setattr(timers, "wait", lambda *_: None)
     apply(body)
+    bpy.context.scene.frame_set(77)
+    before = {*bpy.data.node_groups}, several.shown_images(body)
+    monkeypatch.setattr("masked_body.DOSES", (45.0, *DOSES[1:]))
     body.skin_tan.exposures[0].dose = 45.0
-    live.show_changes()
-    assert live.make_exact() == live.AHEAD_SECONDS
-    assert applied.is_changed(body, bpy.context.scene)
-    end = time.monotonic() + 120.0
-    while live.make_exact() is not None:
-        assert time.monotonic() < end
-        time.sleep(0.001)
+    for timer, frame in ((live.show_changes, 77), (live.make_exact, 180)):
+        end = time.monotonic() + 120.0
+        while timer() is not None:
+            assert time.monotonic() < end
+            time.sleep(0.001)
+        bpy.context.scene.frame_set(frame)
+        assert rendered(body, tmp_path) == pytest.approx(expected(body), abs=0.002)
+    assert ({*bpy.data.node_groups}, several.shown_images(body)) == before and before[1]
     assert not applied.is_changed(body, bpy.context.scene)

@@ -3,6 +3,7 @@
 import ast
 import functools
 import hashlib
+from typing import Any
 
 import bpy
 
@@ -153,15 +154,14 @@ def is_only_biology_changed(former: str, now: str) -> bool:
 
 
 def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> object:
-    value = getattr(group, name)
-    kind = group.bl_rna.properties[name].type
+    value, kind = getattr(group, name), _kinds(type(group))[name]
     if kind == "COLLECTION":
         return [_values(item) for item in value]
     if kind == "POINTER" and isinstance(value, bpy.types.PropertyGroup):
         return _values(value)
     if kind == "POINTER":
         return value and value.name_full
-    return tuple(value) if hasattr(value, "__len__") and kind == "FLOAT" else value
+    return tuple(value) if kind == "FLOAT" and hasattr(value, "__len__") else value
 
 
 def _values(group: bpy.types.PropertyGroup) -> list[object]:
@@ -169,5 +169,11 @@ def _values(group: bpy.types.PropertyGroup) -> list[object]:
 
 
 def _names(group: bpy.types.PropertyGroup | SkinTanSettings) -> list[str]:
-    names = [prop.identifier for prop in group.bl_rna.properties]
+    names = _kinds(type(group))
     return [name for name in names if name not in LATER or group.is_property_set(name)]
+
+
+@functools.lru_cache(maxsize=32)
+def _kinds(cls: Any) -> dict[str, str]:
+    """Kinds of a class's properties by name, in order: a year of days asks for them often."""
+    return {prop.identifier: prop.type for prop in cls.bl_rna.properties}

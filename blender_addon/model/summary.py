@@ -119,7 +119,7 @@ def _of_blisters(settings: TanSettings, stamp: tuple[int, int]) -> tuple[str, ..
     return (Line("Above 4 burn doses on day {day:.0f}:", day=day), "blisters in life; not shown")
 
 
-@functools.lru_cache(maxsize=256)
+@functools.lru_cache(maxsize=512)  # a year of days, all asked for at a change of one
 def _received(
     exposure: Exposure, path: Path, stamp: tuple[int, int], own_doses: MinimalDoses | None
 ) -> Doses | str:

@@ -100,6 +100,8 @@ def frame_of(day: float) -> int:
 
 def _set_up(scene: bpy.types.Scene, engine: str) -> None:
     scene.render.engine = engine
+    # That of Mesa, EEVEE without a graphics card, blurs tables even where nothing changes.
+    bpy.context.preferences.system.anisotropic_filter = "FILTER_0"
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.use_adaptive_sampling = cycles.use_denoising = False

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import bpy
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 import blender_addon
 from examples.demo import render
-from examples.truth import albedo, alike, cycles, gloss, illuminants, model, page, shots
+from examples.truth import albedo, alike, cycles, eevee, gloss, illuminants, model, page, shots
 from examples.truth.outcome import Reading, Row, markdown, read_rows, write_rows
 from examples.truth.shots import Shot
 from hylios.errors import InputError
@@ -36,6 +37,18 @@ def test_a_white_diffuser_is_1_where_it_is_lit_and_0_behind_the_screen(addon, tm
     assert across == pytest.approx(np.linspace(-0.009, 0.009, 10), abs=1e-3)
     assert light["diffuse"][:, across > 0.0] == pytest.approx(1.0, abs=1e-5)
     assert np.all(light["combined"][:, across < 0.0] == 0.0)
+
+
+def test_eevee_is_compared_where_light_from_inside_the_skin_outshines_the_mirrored_lamp(
+    addon, tmp_path
+):
+    """Straight above, the lamp's reflection is three times the light from inside."""
+    (shot, *_) = eevee.shots()
+    small = replace(shot, size=(10, 2), samples=16, skin="VI")
+    cycles.set_inputs(cycles.built(small), small)
+    light = cycles.rendered(small, tmp_path / "lit.exr")
+    lit = light["position"][0, :, 0] > 0.003
+    assert light["glossy"][:, lit].mean() < 0.1 * light["diffuse"][:, lit].mean()
 
 
 @pytest.mark.slow

@@ -4,13 +4,8 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
-from hylios.commands.shell import (
-    add_region_argument,
-    add_skin_arguments,
-    add_work_arguments,
-    chosen_skin,
-    require_work,
-)
+from hylios.commands.shell import add_work_arguments, require_work
+from hylios.commands.skin_arguments import add_region_argument, add_skin_arguments, chosen_skin
 from hylios.tissue import Model
 
 

@@ -5,7 +5,8 @@ import argparse
 import numpy as np
 
 from hylios.commands.beam import add_beam_arguments, simulated
-from hylios.commands.shell import note_estimates, print_table
+from hylios.commands.notes import note_estimates
+from hylios.commands.shell import print_table
 
 DESCRIPTION = """\
 Prints one row for a bin of directions: the polar angle and azimuth of its middle, its projected

@@ -13,14 +13,12 @@ from hylios.commands.dose_arguments import (
     chosen_doses,
     skin_in_light,
 )
-from hylios.commands.shell import (
+from hylios.commands.notes import note_estimates, note_kinetics, note_redness
+from hylios.commands.skin_arguments import (
     add_erythema_argument,
     add_kinetics_argument,
     add_tanning_arguments,
     chosen_region,
-    note_estimates,
-    note_kinetics,
-    note_redness,
 )
 from hylios.commands.texts import number_range
 from hylios.errors import InputError, require_range, require_whole, shown

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hylios.commands import dose_notes
-from hylios.commands.shell import (
+from hylios.commands.skin_arguments import (
     add_skin_arguments,
     add_tanning_arguments,
     chosen_skin,

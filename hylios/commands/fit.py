@@ -6,12 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hylios.commands.shell import (
-    add_skin_arguments,
-    chosen_skin,
-    note_estimates,
-    note_omissions,
-)
+from hylios.commands.notes import note_estimates, note_omissions
+from hylios.commands.skin_arguments import add_skin_arguments, chosen_skin
 from hylios.commands.streams import progress
 from hylios.commands.texts import number, wavelength_range
 from hylios.errors import InputError, shown

@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from hylios.commands.shell import note_omissions
+from hylios.commands.notes import note_omissions
 from hylios.errors import shown
 from hylios.files import require_target
 from hylios.readers.spectrum import read_spectra

@@ -6,7 +6,8 @@ import sys
 import numpy as np
 
 from hylios.commands.beam import add_beam_arguments, simulated
-from hylios.commands.shell import note_estimates, print_table
+from hylios.commands.notes import note_estimates
+from hylios.commands.shell import print_table
 
 DESCRIPTION = """\
 Prints one row for a ring around the point where a pencil beam comes in: its inner and outer radius

@@ -2,15 +2,9 @@
 
 import argparse
 
-from hylios.commands.shell import (
-    add_region_argument,
-    add_skin_arguments,
-    add_work_arguments,
-    chosen_skin,
-    note_estimates,
-    print_table,
-    require_work,
-)
+from hylios.commands.notes import note_estimates
+from hylios.commands.shell import add_work_arguments, print_table, require_work
+from hylios.commands.skin_arguments import add_region_argument, add_skin_arguments, chosen_skin
 from hylios.commands.texts import wavelength_range
 
 

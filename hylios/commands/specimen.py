@@ -5,7 +5,7 @@ import sys
 import textwrap
 from dataclasses import MISSING, asdict
 
-from hylios.commands.shell import (
+from hylios.commands.skin_arguments import (
     add_region_argument,
     add_specimen_arguments,
     chosen_specimen,

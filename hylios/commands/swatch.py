@@ -6,15 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from hylios.commands.day_row import add_row_arguments, require_no_tan, write_row
-from hylios.commands.shell import (
-    add_region_argument,
-    add_skin_arguments,
-    add_work_arguments,
-    chosen_skin,
-    note_estimates,
-    note_omissions,
-    require_work,
-)
+from hylios.commands.notes import note_estimates, note_omissions
+from hylios.commands.shell import add_work_arguments, require_work
+from hylios.commands.skin_arguments import add_region_argument, add_skin_arguments, chosen_skin
 from hylios.errors import InputError, require_range, require_whole, shown
 from hylios.files import require_target
 from hylios.readers.spectrum import NamedSpectrum, read_spectra

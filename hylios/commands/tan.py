@@ -10,13 +10,9 @@ from hylios.commands.dose_arguments import (
     chosen_doses,
     skin_in_light,
 )
-from hylios.commands.shell import (
-    add_erythema_argument,
-    add_kinetics_argument,
-    note_kinetics,
-    note_redness,
-    print_rows,
-)
+from hylios.commands.notes import note_kinetics, note_redness
+from hylios.commands.shell import print_rows
+from hylios.commands.skin_arguments import add_erythema_argument, add_kinetics_argument
 from hylios.commands.streams import progress
 from hylios.commands.texts import number
 from hylios.tanning import simulate_in_parts

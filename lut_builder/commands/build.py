@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hylios.commands.shell import (
+from hylios.commands.shell import add_work_arguments, require_work
+from hylios.commands.skin_arguments import (
     add_skin_arguments,
     add_tanning_arguments,
-    add_work_arguments,
     chosen_skin,
     chosen_tanning_skin,
-    require_work,
 )
 from hylios.commands.texts import number
 from hylios.errors import InputError, require_whole

@@ -5,12 +5,11 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from hylios.commands.shell import (
+from hylios.commands.shell import add_work_arguments, require_work
+from hylios.commands.skin_arguments import (
     add_skin_arguments,
     add_tanning_arguments,
-    add_work_arguments,
     chosen_tanning_skin,
-    require_work,
 )
 from hylios.errors import InputError
 from hylios.files import require_target

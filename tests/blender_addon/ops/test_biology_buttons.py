@@ -193,7 +193,7 @@ def test_the_command_builds_this_skin(body, skin, monkeypatch):
     built = []
     monkeypatch.setattr("lut_builder.commands.build.build_table", built.append)
     cli.main(command[1:])
-    from hylios.commands.shell import chosen_tanning_skin
+    from hylios.commands.skin_arguments import chosen_tanning_skin
 
     made, told = chosen_tanning_skin(built[0]), skin_of(catalogue.provenance(values.table))
     expected = values.biology.of(told.specimen)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hylios.commands.shell import note_omissions
+from hylios.commands.notes import note_omissions
 from hylios.errors import InputError
 from hylios.readers.cgats import cgats_table
 from hylios.readers.cxf import NAMESPACE, cxf_table, is_cxf

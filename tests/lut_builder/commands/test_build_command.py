@@ -10,7 +10,7 @@ from dataclasses import replace
 import OpenImageIO as oiio  # noqa: N813
 import pytest
 
-from hylios.commands.shell import chosen_tanning_skin
+from hylios.commands.skin_arguments import chosen_tanning_skin
 from hylios.skin import Skin
 from hylios.skin.phototypes import phototype
 from hylios.skin.specimen import SPECIMENS

@@ -17,7 +17,6 @@ def draw_biology(layout: bpy.types.UILayout, settings: SkinTanSettings) -> None:
     if not biology.is_changed():
         return
     layout.operator("skin_tan.reset_biology", icon="LOOP_BACK")
-    draw_lines(
-        layout, ("Light spreads as in the type's skin.", "For a table of this very skin:"), "INFO"
-    )
+    lines = "Light spreads as in the type.", "For a table of this very skin:"
+    draw_lines(layout, lines, "INFO")
     layout.operator("skin_tan.copy_build_command", icon="COPYDOWN")

@@ -21,7 +21,7 @@ def draw_object_mask(
         # A file of version 0.1.0 has its name there.
         layout.prop(settings, "mask_attribute", text="", icon="MOD_MASK")
     else:
-        layout.prop(settings.mask, "source", text="", icon="MOD_MASK")
+        _draw_source(layout, settings.mask)
     _draw_makers(layout, "OBJECT")
     _draw_reading(layout, obj, settings.mask, settings.object_mask(), context, BARE)
 
@@ -34,13 +34,17 @@ def draw_mask(
     without: str = BARE,
 ) -> None:
     """A mask of the selected exposure or region, or of the film, and what having none means."""
-    layout.prop(settings, "source", text="", icon="MOD_MASK")
+    _draw_source(layout, settings)
     if isinstance(settings, SkinTanMask):
         _draw_makers(layout, "EXPOSURE")
     if isinstance(settings, SkinTanRegionMask):
         paint: Any = layout.operator("skin_tan.paint_mask", icon="BRUSH_DATA")
         paint.target = "REGION"
     _draw_reading(layout, obj, settings, masks.Mask.of(settings), context, without)
+
+
+def _draw_source(layout: bpy.types.UILayout, settings: AnyMask) -> None:
+    layout.prop(settings, "source", text="", icon="MOD_MASK", placeholder="Choose a mask")
 
 
 def _draw_makers(layout: bpy.types.UILayout, target: str) -> None:

@@ -45,8 +45,10 @@ class Layout:
         assert icon in ICONS
         self.labels.append(text)
 
-    def prop(self, data, name, *, text=None, emboss=True, icon="NONE"):
+    def prop(self, data, name, *, text=None, emboss=True, icon="NONE", placeholder=""):
         assert name in data.bl_rna.properties
+        if placeholder and not getattr(data, name):
+            self.labels.append(placeholder)
         assert icon in ICONS
 
     def operator(self, name, *, text=None, icon="NONE", icon_value=0, depress=False):

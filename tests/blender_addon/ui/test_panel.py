@@ -275,3 +275,10 @@ def test_what_has_no_effect_is_told(table_path):
     assert not {film, late} & set(drawn())
     bpy.ops.skin_tan.apply()
     assert film not in drawn()
+
+
+def test_an_empty_mask_says_what_its_field_is_for(table_path):
+    settings = tan_object(table_path, [0.0, 1.0]).skin_tan
+    assert "Choose a mask" not in drawn(panel.VIEW3D_PT_skin_tan_mask)
+    settings.mask.source = ""
+    assert drawn(panel.VIEW3D_PT_skin_tan_mask)[0] == "Choose a mask"

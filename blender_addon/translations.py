@@ -155,6 +155,9 @@ GERMAN = {
     "UV {index:g}, {hours:g} h": "UV {index:g}, {hours:g} h",
     "Sun {start:g}-{end:g} h": "Sonne {start:g}-{end:g} h",
     "{meter:.3g} SED: {hours:.1f} h of strong sun": "{meter:.3g} SED: {hours:.1f} h starke Sonne",
+    "{meter:.3g} SED: {minutes:.0f} min of strong sun": (
+        "{meter:.3g} SED: {minutes:.0f} min starke Sonne"
+    ),
     "tans like {tanning:.3g} SED": "bräunt wie {tanning:.3g} SED",
     "No time is given as Sun:": "Keine Zeit als Sonne angegeben:",
     "its UVA is not known": "ihr UVA ist unbekannt",

@@ -81,7 +81,14 @@ def _of_dose(
         return received
     meter, tanning = received.erythemal.sum(), received.melanogenesis.sum()
     hours = meter / SED_PER_HOUR_OF_SUMMER_SUN
-    lines = [Line("{meter:.3g} SED: {hours:.1f} h of strong sun", meter=meter, hours=hours)]
+    if hours < 1.0:
+        minutes = 60.0 * hours
+        line = Line(
+            "{meter:.3g} SED: {minutes:.0f} min of strong sun", meter=meter, minutes=minutes
+        )
+    else:
+        line = Line("{meter:.3g} SED: {hours:.1f} h of strong sun", meter=meter, hours=hours)
+    lines = [line]
     if exposure.unit == "SUN":
         lines.append(Line("tans like {tanning:.3g} SED", tanning=tanning))
     return tuple(lines)

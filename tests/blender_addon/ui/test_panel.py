@@ -34,6 +34,8 @@ def test_with_every_setting(table_path):
     assert "Tans from 4.9 SED of sun," in labels
     assert "burns from 2.9 SED (estimates)" in labels
     assert "30 SED: 4.2 h of strong sun" in labels
+    obj.skin_tan.exposures[0].dose = 0.5
+    assert "0.5 SED: 4 min of strong sun" in drawn()
     bpy.ops.skin_tan.apply()
     assert "This frame shows day 0.0" in drawn()
 

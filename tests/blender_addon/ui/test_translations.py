@@ -25,6 +25,7 @@ VALUES = {
     "multiple": 12.5,
     "index": 11.0,
     "hours": 12.5,
+    "minutes": 59.0,
     "start": 10.5,
     "end": 15.5,
     "meter": 123.0,

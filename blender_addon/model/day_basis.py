@@ -2,7 +2,7 @@
 
 Who drags looks at one frame. So the day of that frame has a part of the days for itself, in which
 the coefficients are its coordinates; knots lie where they bend on that day. Of other days points
-at few knots are simulated at few hours, and three shapes tell them.
+at few knots are simulated at few hours, and few shapes tell them.
 """
 
 from collections.abc import Sequence
@@ -29,13 +29,11 @@ from .grid import counts_of_grid, shares_of_grid
 from .principal import Shapes, principal_shapes
 from .room import Room
 
-DAY = BasisPrecision(16_000, 0.001, 64, 1, 96, 0, ranks=(3,))
+DAY = BasisPrecision(16_000, 0.001, 64, 1, 96, 0, ranks=(6,))
 """Of the day that shows."""
 
-OTHERS = BasisPrecision(1_000, 0.004, 32, 1, 96, 0, ranks=(3,))
+OTHERS = BasisPrecision(2_000, 0.004, 32, 1, 144, 0, ranks=(6,))
 """Of the other days."""
-
-RANK = 3
 
 ZONE = 2.0
 """Steps of the days on both sides of the one that shows for which it stands."""
@@ -86,15 +84,16 @@ def day_basis(
     others = course((first_day, last_day), min(OTHERS.rows, ROWS * (room.parts - NEITHER)))
     few = knots_of(others, masks, OTHERS, random)
     shares = shares_of_grid(few)
+    rank = min(room.rank, *OTHERS.ranks)
     around = ZONE * 24.0 * (last_day - first_day) / STEPS
     before = _hours(others.hours, hour - around, up_to=True)
     after = _hours(others.hours, hour + around, up_to=False)
     exact = _on(shown, shares_of_grid(knots), hour)
     curves, weights = others.seen(shares), counts_of_grid(shares) ** 0.25
     parts = [
-        *_roughly(_at(others, curves, before), weights),
-        (_itself(shown.numbers), exact),
-        *_roughly(_at(others, curves, after), weights),
+        *_roughly(_at(others, curves, before), weights, rank),
+        (_itself(shown.numbers, rank), np.pad(exact, ((0, 0), (0, rank - exact.shape[1])))),
+        *_roughly(_at(others, curves, after), weights, rank),
     ]
     of_day = (len(before) - 1) // ROWS
     told = [
@@ -104,8 +103,7 @@ def day_basis(
     within = np.linspace(before[-1], after[0], ROWS + 1)[1:-1]
     hours, shapes = np.concatenate([before, within, after]), [own for own, _ in parts]
     coefficients = np.pad(told, ((0, room.parts - len(told)), (0, 0), (0, 0)))
-    days = first_day, last_day
-    made = put_together(others, hours, days, knots, shapes, coefficients, 0.0)
+    made = put_together(others, hours, (first_day, last_day), knots, shapes, coefficients, 0.0)
     return made, others.states(shares[:: max(len(shares) // SOME, 1)])
 
 
@@ -120,9 +118,9 @@ def _hours(hours: NDArray[np.int_], end: float, *, up_to: bool) -> NDArray[np.fl
     return np.append(np.linspace(end, inside[0], more + 1)[:-1], inside)
 
 
-def _itself(numbers: int) -> Shapes:
-    """Shapes whose coefficients are the coordinates, on all days of a part."""
-    by_number = np.eye(RANK)[:, :numbers] * WEIGHTS[:numbers]
+def _itself(numbers: int, rank: int) -> Shapes:
+    """Shapes whose first coefficients are the coordinates, on all days of a part."""
+    by_number = np.eye(rank, numbers) * WEIGHTS[:numbers]
     shapes = np.repeat(by_number, ROWS + 1, axis=1)
     return Shapes(np.zeros(shapes.shape[1]), shapes, np.linalg.pinv(shapes))
 
@@ -143,12 +141,12 @@ def _at(course: Course, curves: NDArray[np.float32], hours: NDArray) -> NDArray[
 
 
 def _roughly(
-    curves: NDArray[np.float32], weights: NDArray[np.float64]
+    curves: NDArray[np.float32], weights: NDArray[np.float64], rank: int
 ) -> list[tuple[Shapes, NDArray[np.float32]]]:
-    """Shapes of the parts of some hours, and coefficients (N, RANK) of curves (N, numbers, T)."""
+    """Shapes of the parts of some hours, and coefficients (N, rank) of curves (N, numbers, T)."""
     told = []
     for part in parts_of(curves) if curves.shape[2] > 1 else ():
-        shapes = principal_shapes(part, RANK, weights, 0)
+        shapes = principal_shapes(part, rank, weights, 0)
         told.append((shapes, shapes.coefficients(part)))
     return told
 

@@ -134,6 +134,8 @@ def set_inputs(skin: bpy.types.Object, shot: Shot) -> None:
         raise InputError("the add-on's node group has no input Blood.")
     if blood is not None:
         blood.default_value = shot.blood
+    if not shot.gloss:
+        group.inputs["Specular"].default_value = 0.0
 
 
 def rendered(shot: Shot, scratch: Path) -> dict[str, np.ndarray]:

@@ -57,6 +57,8 @@ class Shot:
         What the group's input Blood is set to.
     film : str
         What lies on the skin, as the add-on calls it.
+    gloss : bool
+        Whether the surface reflects; straight above, a lamp's reflection outshines the skin.
     angle : float
         In degrees from the normal: of the camera, or of the light on the stage "lobe".
     thickness : float
@@ -100,6 +102,7 @@ class Shot:
     unit: float = 1.0
     scale: float = 1.0
     film: str = "NONE"
+    gloss: bool = True
     model_scale: float = 1.0
     applied_unit: float = 0.0
     configuration: str = ""

@@ -45,7 +45,7 @@ def lobe(shot: Shot) -> bpy.types.Object:
 def edge(shot: Shot) -> bpy.types.Object:
     """Skin under a lamp straight above, of which a sharp screen covers x < 0."""
     skin = _box(shot, SIDE, SIDE)
-    _camera(shot, EDGE_WIDTH, shot.angle)
+    _camera(shot, EDGE_WIDTH, 0.0)
     _lamp(0.0)
     screen = _screen(shot.unit)
     for ray in ("camera", "diffuse", "glossy", "transmission"):

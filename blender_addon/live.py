@@ -257,7 +257,7 @@ def _restore_look(obj: bpy.types.Object, text: str) -> None:
     if shown == {None} and wanted == applied.look_digest(former):
         shown = {wanted}
     for image in look.values():
-        image.reload()
+        images.reread(image)
     is_its_own = wanted == applied.look_digest(former) or _is_only_look_changed(obj, text)
     if shown != {wanted} and is_its_own:
         with suppress(InputError):

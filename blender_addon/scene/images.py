@@ -152,9 +152,18 @@ def restore(image: bpy.types.Image, content: str) -> bool:
 
 def show_packed(image: bpy.types.Image) -> None:
     """Have an image show what its packed file holds."""
-    image.reload()
+    reread(image)
     if LASTING in image:
         image[SHOWN] = image[LASTING]
+
+
+def reread(image: bpy.types.Image) -> None:
+    """Have an image's pixels be those of its packed file.
+
+    Blender's own reload looks for a file on disk first, and prints an error where there is none.
+    """
+    image.buffers_free()
+    image.update_tag()
 
 
 def shared_image(name: str, values: np.ndarray, *, is_colour: bool) -> bpy.types.Image:

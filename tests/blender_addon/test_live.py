@@ -89,7 +89,7 @@ def test_another_sensitivity_leads_to_what_apply_shows(body):
     assert look(body) == shown
 
 
-def test_undo_of_another_sensitivity_leads_to_the_look_that_was(body, monkeypatch):
+def test_undo_of_another_sensitivity_leads_to_the_look_that_was(body, monkeypatch, capfd):
     """States of doses by hand lie elsewhere than the look of before tells."""
     monkeypatch.setattr(timers, "are_called", lambda: True)
     bpy.ops.ed.undo_push(message="applied")
@@ -106,6 +106,7 @@ def test_undo_of_another_sensitivity_leads_to_the_look_that_was(body, monkeypatc
         is_between = look(body) == before and body.skin_tan.own_minimal_doses
         assert look(body) == expected
         assert stale() == is_between
+    assert "ERROR" not in capfd.readouterr().out  # Blender looks for no file of a packed image
 
 
 def test_no_tan_is_made_where_there_was_none(table_path):

@@ -40,7 +40,8 @@ class Check:
     states : (N, 5) array
         Reachable tanning states that are no knots, of any blood that the table spans.
     differences : (N,) array
-        CIEDE2000 between the table's total colour and the direct one.
+        CIEDE2000 between the table's total colour and the direct one; (0,) where the table has
+        bands alone.
     slanting : (N,) array or None
         The same of light that comes in at 45 degrees; None where the table has no such colour, or
         with rays.
@@ -92,8 +93,8 @@ def check(
     OwnSpectraError
         If these are not the spectra that the table was made with.
     InputError
-        If the table's header does not say for what skin it was built, or the table has no colour
-        or too few states.
+        If the table's header does not say for what skin it was built, the table has no state
+        between its knots, or neither a colour nor bands; with rays, if it has no colour.
     """
     skin = skin_of(table.provenance)
     model = Model(spectra or {}, table.provenance.get("readings", {}))
@@ -107,11 +108,11 @@ def check(
     held = _between_knots(table, np.concatenate(tans))
     some = random.choice(held, count, replace=len(held) < count)
     states = np.column_stack([some, np.exp(random.uniform(0.0, _most_blood(table), count))])
-    seen = table.plane("total_colour", states)
     specimens = [skin.at(state) for state in states]
     told = progress or (lambda share: None)
-    if not rays:
+    if not rays and ("band_reflectance" in table.planes or "total_colour" in table.planes):
         return _checked(table, states, specimens, model, told)
+    seen = table.plane("total_colour", states)
     lighting = lighting_of(table.provenance)
     direct, spread = _walked(specimens, model, lighting, rays, seed, threads, told)
     noise = [
@@ -127,21 +128,24 @@ def _checked(
     """The comparison with the solver, wavelength by wavelength: so it is fastest."""
     angles = [angle for angle, plane in COLOURS.items() if plane in table.planes]
     bands = table.provenance.get("bands_nm", []) if "band_reflectance" in table.planes else []
-    total = np.empty((FINE.size + len(bands), len(angles), len(specimens)))
-    for row, wavelength in zip(total, [*FINE, *bands], strict=True):
+    fine = FINE if angles else FINE[:0]
+    total = np.empty((fine.size + len(bands), max(1, len(angles)), len(specimens)))
+    for row, wavelength in zip(total, [*fine, *bands], strict=True):
         stacks = [Stack.of(specimen, float(wavelength), model) for specimen in specimens]
         # with a film beside: its directions make the skin without one more accurate
-        row[:] = solve(stacks, angles, film=(None, WATER)).total[0]
+        row[:] = solve(stacks, angles or [ANGLE], film=(None, WATER)).total[0]
         told(len(specimens) / len(total))
-    direct = np.einsum(
-        "cw,was->asc", lighting_of(table.provenance).fine_weights(FINE), total[: FINE.size]
-    )
     seen = table.lookup(states)
+    off = seen["band_reflectance"] - total[fine.size :, 0].T if bands else None
+    if not angles:
+        return Check(states, np.empty(0), bands=off)
+    direct = np.einsum(
+        "cw,was->asc", lighting_of(table.provenance).fine_weights(fine), total[: fine.size]
+    )
     apart = {
         angle: difference(seen[COLOURS[angle]], colour)
         for angle, colour in zip(angles, direct, strict=True)
     }
-    off = seen["band_reflectance"] - total[FINE.size :, 0].T if bands else None
     return Check(states, apart[ANGLE], apart.get(45.0), off)
 
 

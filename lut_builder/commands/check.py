@@ -68,9 +68,10 @@ def check_table(arguments: argparse.Namespace) -> None:
     held = ", held by the table" if scene or "state" in table.planes else ""
     most = result.states[:, 4].max()
     blood = f", of 1 to {most:.2g} times the blood" if most > 1.0 else ""
-    print(f"states: {len(result.differences)}, reachable{held}{blood}, none of them a knot")
-    print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
-    print(f"largest: {result.differences.max():.3f}")
+    print(f"states: {len(result.states)}, reachable{held}{blood}, none of them a knot")
+    if result.differences.size:
+        print(f"mean CIEDE2000 between table and model: {result.differences.mean():.3f}")
+        print(f"largest: {result.differences.max():.3f}")
     if result.slanting is not None:
         slanting = f"{result.slanting.mean():.3f}, largest {result.slanting.max():.3f}"
         print(f"in light from 45 degrees: mean {slanting}")

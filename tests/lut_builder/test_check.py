@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hylios.errors import InputError
 from hylios.skin.phototypes import phototype
 from hylios.table import read_table, skin_of
 from lut_builder.assemble import build
@@ -51,6 +52,15 @@ def test_check_finds_a_table_right_and_a_wrong_one_wrong(small):
     darker = {name: 0.6 * values for name, values in small.planes.items()}
     differences = check(replace(small, planes=darker), count=6, seed=5)
     assert differences.differences.min() > honest.differences.mean()
+
+
+def test_a_table_of_bands_alone_is_checked_by_them(small):
+    bands = replace(small, planes={"band_reflectance": small.planes["band_reflectance"]})
+    checked, whole = (check(table, count=4, seed=5) for table in (bands, small))
+    assert checked.differences.size == 0 and checked.slanting is None
+    assert checked.bands == pytest.approx(whole.bands, abs=1e-12)
+    with pytest.raises(InputError, match="no plane total_colour"):
+        check(bands, count=4, seed=5, rays=100)
 
 
 def test_both_ways_of_checking_say_the_same(small):

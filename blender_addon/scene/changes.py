@@ -5,7 +5,7 @@ full memory or Ctrl+C among them, finds all that it has to take back.
 """
 
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from types import TracebackType
 from typing import Any
 
@@ -43,7 +43,9 @@ class Changes:
         if kind is None:
             self._undo.pop_all()
             for step in self._last:
-                step()
+                # On a block that a step before has removed there is nothing left to do.
+                with suppress(ReferenceError):
+                    step()
             return
         try:
             self._undo.close()

@@ -235,6 +235,27 @@ def shader_material():
     return material
 
 
+@pytest.mark.parametrize("own_colour", [False, True])
+@pytest.mark.parametrize("view", ["VISIBLE", "NM365"])
+def test_the_copy_of_a_material_without_its_tick_goes(table_path, own_colour, view):
+    """And whatever Apply had to do in its tree at the end with it."""
+    obj, skin = tan_object(table_path, [1.0, 1.0]), plain("skin")
+    wear(obj, [skin, plain("lips")])
+    other = bpy.data.objects.new("Other", obj.data.copy())  # shows them too, so they are copied
+    bpy.context.collection.objects.link(other)
+    obj.skin_tan.own_colour = own_colour
+    apply(obj)
+    bpy.ops.skin_tan.switch_view(view=view)
+    for entry in obj.skin_tan.materials:
+        entry.tans = "lips" in entry.material.name
+    obj.skin_tan.own_colour = False
+    bpy.context.view_layer.objects.active = obj
+    assert bpy.ops.skin_tan.apply() == {"FINISHED"}
+    assert obj.material_slots[0].material == skin
+    assert obj.material_slots[1].material != bpy.data.materials["lips"]
+    assert {block.name for block in bpy.data.materials} == {"skin", "lips", "lips.001"}
+
+
 def test_an_artists_own_property_of_that_name_stays(table_path):
     obj = tan_object(table_path)
     obj["tan_day"] = "a note"

@@ -184,9 +184,11 @@ def _is_schedule(obj: bpy.types.Object, text: str) -> bool:
 
 def _can_show(obj: bpy.types.Object, text: str, precision: Precision) -> bool:
     """Whether another schedule goes into the images that are there."""
+    former = settings_of(obj).applied
     if precision is DRAG:
-        return True
-    is_moved = applied.is_sensitivity_changed(settings_of(obj).applied, text)
+        # Of the settings that were applied last a rough history would count as exact, and stay.
+        return text != former or has_several(obj)
+    is_moved = applied.is_sensitivity_changed(former, text)
     return not is_moved and (not has_several(obj) or fits(obj))
 
 

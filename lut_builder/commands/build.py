@@ -70,7 +70,6 @@ def _add_settings_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--preset",
         choices=list(PRESETS),
-        default="standard",
         help="accuracy of the table (default: standard)",
     )
     add_limit_arguments(parser)
@@ -157,11 +156,7 @@ def _add_output_arguments(parser: argparse.ArgumentParser) -> None:
 def build_table(arguments: argparse.Namespace) -> None:
     """Build a table and write it."""
     require_work(arguments)
-    if arguments.schedule is None:
-        if arguments.days is not None:
-            raise InputError(f"--days is {arguments.days:g} without a --schedule; allowed is both.")
-        if arguments.no_redness:
-            raise InputError("--no-redness is given without a --schedule; allowed is both.")
+    _require_effects(arguments)
     settings = _settings(arguments)
     _, model = chosen_skin(arguments)
     skin = chosen_tanning_skin(arguments, arguments.untanned)
@@ -201,6 +196,43 @@ def build_table(arguments: argparse.Namespace) -> None:
     if cut:
         print(f"note: {cut} of {count} states would overfill a layer with melanin; cut")
     print(f"wrote {arguments.output}: {os.path.getsize(arguments.output) / 1000:.1f} KB")
+
+
+def _require_effects(arguments: argparse.Namespace) -> None:
+    """Refuse options that have no effect beside the others, or without them."""
+    if arguments.schedule is None:
+        if arguments.days is not None:
+            raise InputError(f"--days is {arguments.days:g} without a --schedule; allowed is both.")
+        if arguments.no_redness:
+            raise InputError("--no-redness is given without a --schedule; allowed is both.")
+    if has_limit(arguments):
+        if arguments.preset is not None:
+            raise InputError(
+                f"--preset is {arguments.preset} beside a limit of error or time, which chooses "
+                "the settings itself; allowed is one."
+            )
+    elif arguments.front is not None:
+        raise InputError(
+            f"--front is {arguments.front} without --max-delta-e or --max-seconds; allowed is both."
+        )
+    if arguments.no_profile and arguments.profile_error is not None:
+        raise InputError("both --no-profile and --profile-error are given; allowed is one.")
+    if not _shows_colours(arguments):
+        for name, value, usual in (
+            ("--illuminant", arguments.illuminant, DAYLIGHT),
+            ("--observer", arguments.observer, STANDARD_OBSERVER),
+        ):
+            if value != usual:
+                raise InputError(
+                    f"{name} is {value} for a table without the visible, which has no colours; "
+                    "allowed is with it."
+                )
+
+
+def _shows_colours(arguments: argparse.Namespace) -> bool:
+    return arguments.bands is None or VISIBLE in (
+        band.strip() for band in arguments.bands.split(",")
+    )
 
 
 def _reached(skin: Skin, settings: Settings, arguments: argparse.Namespace) -> np.ndarray:
@@ -244,9 +276,8 @@ def _runner(arguments: argparse.Namespace, seconds: float) -> "Runner":
 def _start(arguments: argparse.Namespace) -> Settings:
     """The settings that other arguments change: a preset's, or those of a point of the front."""
     if not has_limit(arguments):
-        return PRESETS[arguments.preset]
-    with_colours = arguments.bands is None or VISIBLE in arguments.bands
-    profile = with_colours and not arguments.no_profile
+        return PRESETS[arguments.preset or "standard"]
+    profile = _shows_colours(arguments) and not arguments.no_profile
     point = point_within(arguments, measured_points(arguments), profile)
     cores = usable_cores(arguments.threads)
     print(f"chosen: {described(point, cores)}, as measured for the front's machine and skin")

@@ -64,6 +64,8 @@ def trade(arguments: argparse.Namespace) -> None:
             raise InputError(
                 f"--also {arguments.also[0]} is given without -o; it is for measuring."
             )
+        if arguments.quick:
+            raise InputError("--quick is given without -o; it is for measuring.")
         _show(arguments, measured_points(arguments))
         return
     if arguments.front is not None:

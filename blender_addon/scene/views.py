@@ -175,7 +175,7 @@ def show(group: Any, trees: Iterable[Any], band: Band, changes: Changes) -> None
         less = tuple((band.film - 1.0) * value for value in level)
         changes.set(node.inputs[2], "default_value", less)
     for node in nodes.of_role(group, "view_tint"):
-        tint = Color(band.tint).from_rec709_linear_to_scene_linear()
+        tint: Any = Color(band.tint).from_rec709_linear_to_scene_linear()
         changes.set(node.inputs[1], "default_value", tuple(tint))
     for role in ("view_thin", "view_thick"):
         for node in nodes.of_role(group, role):

@@ -133,7 +133,8 @@ def read_exposures(path: Path) -> ReadSchedule:
     """The exposures of a file.
 
     Three kinds are taken: as `exposures_text` writes it, where day and amount are enough; two
-    columns, day and SED; and what Export Schedule writes, whose doses by the hour are taken as SED.
+    columns, day and SED; and what Export for lut-builder writes, whose doses by the hour count as
+    SED.
 
     Raises
     ------
@@ -176,7 +177,7 @@ def _own_table(lines: Sequence[str], name: str) -> Table | None:
 
 
 def _of_doses(table: Table) -> ReadSchedule:
-    """Exposures of Export Schedule's columns."""
+    """Exposures of Export for lut-builder's columns."""
     hours = table.require_range(COLUMNS[0], 0.0, 24.0 * LAST_DAY_LIMIT)
     doses, thickening = (table.require_range(name, 0.0, DOSE_LIMIT) for name in COLUMNS[1:])
     remarks = ()

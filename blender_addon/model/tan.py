@@ -14,6 +14,7 @@ from hylios.errors import InputError
 from hylios.skin.biology import Biology
 from hylios.sun.doses import Doses
 from hylios.table import MinimalDoses, SkinTable, skin_of
+from hylios.tanning import MeasuredDynamics
 from hylios.threads import one_thread
 
 from . import catalogue, doses
@@ -222,7 +223,7 @@ def history_within(
         erythema=response.erythema,
         darkens=response.darkens,
     )
-    _require_held(table, states)
+    _require_held(table, states, response)
     return over_time
 
 
@@ -256,7 +257,7 @@ def _basis(
         precision=DRAG_BASIS if rough else FULL_BASIS,
         **_how(settings),
     )
-    _require_held(catalogue.table(settings.table), states)
+    _require_held(catalogue.table(settings.table), states, _response(settings))
     return made
 
 
@@ -273,7 +274,7 @@ def day_basis_of(settings: TanSettings, which: Sequence[int], day: float, room: 
     received = _received_by_masks(settings, which)
     melanin = _response(settings).melanin
     made, states = day_basis(received, melanin, day, room, **_how(settings))
-    _require_held(catalogue.table(settings.table), states)
+    _require_held(catalogue.table(settings.table), states, _response(settings))
     return made
 
 
@@ -308,12 +309,13 @@ def _how(settings: TanSettings) -> dict[str, Any]:
     }
 
 
-def _require_held(table: SkinTable, states: NDArray) -> None:
+def _require_held(table: SkinTable, states: NDArray, response: Response) -> None:
     if not table.holds(states).all():
+        measured = isinstance(response.melanin, MeasuredDynamics)
         raise InputError(
-            "the table was built for another schedule of sun or other kinetics and lacks tans of "
-            "this one; build it with this schedule (Export Schedule) or with none, or set Tan to "
-            "As in the Thesis."
+            f"the table was built for another schedule of sun{' or other kinetics' * measured} and "
+            "lacks tans of this one; build it with this schedule (Export for lut-builder) or with "
+            f"none{', or set Tan to As in the Thesis' * measured}."
         )
 
 

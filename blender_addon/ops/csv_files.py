@@ -76,7 +76,7 @@ class SKIN_TAN_OT_export_exposures(_SavesCsv, bpy.types.Operator):  # noqa: N801
 
 class SKIN_TAN_OT_export_schedule(_SavesCsv, bpy.types.Operator):  # noqa: N801
     bl_idname = "skin_tan.export_schedule"
-    bl_label = "Export Schedule"
+    bl_label = "Export for lut-builder"
     bl_description = (
         "Save these times in the sun as CSV, to build a smaller table for this scene only"
     )

@@ -54,7 +54,7 @@ class SKIN_TAN_MT_exposures(bpy.types.Menu):  # noqa: N801
         layout.operator("skin_tan.import_exposures", icon="IMPORT")
         layout.operator("skin_tan.import_weather", icon="LIGHT_SUN")
         layout.operator("skin_tan.export_exposures", icon="EXPORT")
-        layout.operator("skin_tan.export_schedule", text="Export for lut-builder", icon="EXPORT")
+        layout.operator("skin_tan.export_schedule", icon="EXPORT")
 
 
 def draw_exposures(

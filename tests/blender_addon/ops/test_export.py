@@ -66,7 +66,7 @@ def test_a_table_for_a_schedule_is_as_good_for_redness_and_either_kinetics(part,
 )
 def test_a_table_for_a_schedule_is_refused_for_another(part, dose, last_day):
     """More sun leads beyond the knots."""
-    with pytest.raises(InputError, match="built for another schedule of sun"):
+    with pytest.raises(InputError, match=r"another schedule of sun and lacks .* with none\.$"):
         tan(part, of_sed(0, dose), **{**SPAN, "last_day": last_day})
 
 
@@ -131,7 +131,7 @@ def test_an_exported_schedule_gives_a_table_that_apply_takes(tmp_path):
     obj.skin_tan.kinetics, obj.skin_tan.redness = "MEASURED", True
     assert bpy.ops.skin_tan.apply() == {"FINISHED"}
     obj.skin_tan.exposures[0].dose = 1.5 * SUN
-    with pytest.raises(RuntimeError, match="built for another schedule of sun"):
+    with pytest.raises(RuntimeError, match="or set Tan to As in the Thesis"):
         bpy.ops.skin_tan.apply()
 
 

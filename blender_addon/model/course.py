@@ -58,8 +58,8 @@ class Course:
 
     def states(self, shares: NDArray[np.float64]) -> NDArray[np.floating]:
         """States (T, N, 4), or (T, N, 5) of skin that reddens, of points with shares (N, M)."""
-        seen = states_seen(self.energies, shares, self.marks, np.float32, self.burns)
-        return seen[self.marks >= self.first]
+        how = np.float32, self.burns, self.first
+        return states_seen(self.energies, shares, self.marks, *how)
 
     def seen(self, shares: NDArray[np.float64]) -> NDArray[np.float32]:
         """u, v and where skin reddens b of points (N, 2 T or 3 T), as they count."""

@@ -29,13 +29,14 @@ def states_seen(
     marks: NDArray[np.int_],
     dtype: DTypeLike = float,
     burns: Burns | None = None,
+    first: int = 0,
 ) -> NDArray[np.floating]:
     """States (T, S, 4), or (T, S, 5) of skin that reddens, by which a table tells how it looks.
 
     Parameters and errors as of `states_of_shares`. Tables have skin all of which thickens; where
     it reddens only the epidermis does (`whole_thickening`).
     """
-    states = states_of_shares(energies, shares, marks, dtype, burns)
+    states = states_of_shares(energies, shares, marks, dtype, burns, first)
     return states if burns is None else whole_thickening(states)
 
 

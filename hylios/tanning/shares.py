@@ -90,6 +90,7 @@ def states_of_shares(
     marks: NDArray[np.int_],
     dtype: DTypeLike = float,
     burns: Burns | None = None,
+    first: int = 0,
 ) -> NDArray[np.floating]:
     """States (T, S, 4) of places at uneven hours, or (T, S, 5), as `states_at` gives them.
 
@@ -109,6 +110,8 @@ def states_of_shares(
         float32 is twice as fast, and leaves 1e-5 of a state.
     burns : Burns, optional
         How all the doses redden the skin (`Burns.of`), of as many kinds; not at all by default.
+    first : int
+        Hour before which marks are simulated and not told.
 
     Raises
     ------
@@ -135,16 +138,21 @@ def states_of_shares(
     )
     states = np.stack([in_a_row(curve, len(marks)) for curve in curves], axis=-1)
     make_relative(states, melanin.dynamics, thickness.dynamics)
+    start = int(np.searchsorted(marks, first))
     if burns is None:
-        return states
-    blood = _blood(burns.until(int(marks[-1])), parts.astype(dtype), states, marks)
-    return np.concatenate([states, blood[..., None]], axis=-1)
+        return states[start:]
+    blood = _blood(burns.until(int(marks[-1])), parts.astype(dtype), states, marks, marks[start:])
+    return np.concatenate([states[start:], blood[..., None]], axis=-1)
 
 
 def _blood(
-    burns: Burns, shares: NDArray[np.floating], states: np.ndarray, marks: np.ndarray
+    burns: Burns,
+    shares: NDArray[np.floating],
+    states: np.ndarray,
+    marks: np.ndarray,
+    hours: np.ndarray,
 ) -> NDArray[np.floating]:
-    """Blood (T, S) of places with shares (S, M), which have states (T, S, 4) at the marks."""
+    """Blood (T, S) at hours, of places with shares (S, M) and states (K, S, 4) at the marks."""
     doses = np.matmul(burns.doses.T.astype(shares.dtype), shares.T)
     after = np.searchsorted(marks, burns.hours)
     before = np.maximum(after - 1, 0)
@@ -155,7 +163,7 @@ def _blood(
         told[before] * (1.0 - fraction) + told[after] * fraction
         for told in (states[..., :3].sum(axis=-1), states[..., 3])
     )
-    return burns.blood(doses, melanin, thickness, marks)
+    return burns.blood(doses, melanin, thickness, hours)
 
 
 def responses_of_shares(

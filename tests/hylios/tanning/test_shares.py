@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 
 from hylios.errors import InputError
-from hylios.tanning import PIGMENTATIONS, Exposures, MelaninDynamics, hill, states_at
+from hylios.tanning import (
+    PIGMENTATIONS,
+    Burns,
+    ErythemaDynamics,
+    Exposures,
+    MelaninDynamics,
+    hill,
+    states_at,
+)
 from hylios.tanning.shares import responses_of_shares, retained, states_of_shares
 
 SKIN = {"mmd": 4.9, "med": 2.9}
@@ -48,6 +56,19 @@ def test_uneven_hours_meet_the_hourly_curve(dtype, bound):
         received = Exposures(exposures.hours, shares[:, None] * exposures.doses)
         expected = states_at(received, dynamics, times=marks, **SKIN)
         assert np.abs(np.swapaxes(states, 0, 1) - expected).max() < bound
+
+
+@pytest.mark.parametrize("first", [0, 190, 474])
+def test_hours_before_the_first_are_simulated_and_not_told(first):
+    random = np.random.default_rng(3)
+    exposures, shares = schedule(random, 2), random.random((9, 2))
+    energies = retained(exposures, PIGMENTATIONS["low"], hours=24 * DAYS, **SKIN)
+    burns = Burns.of(exposures, ErythemaDynamics(), SKIN["med"])
+    marks = np.arange(0, 24 * DAYS, 6)
+    for own in (None, burns):
+        whole = states_of_shares(energies, shares, marks, burns=own)
+        told = states_of_shares(energies, shares, marks, burns=own, first=first)
+        assert told == pytest.approx(whole[marks >= first], abs=1e-12)
 
 
 def test_decays_of_nearly_1_in_single_precision():

@@ -3,7 +3,7 @@
 Nodes of layout 2 led coordinates to places in images, which nodes of images do themselves since,
 and others computed what the gloss lets through, which an image tells since. An image held the
 colour of thick skin, not by how much it differs. In both the gloss was the same at all angles of
-view.
+view, and a normal was computed.
 """
 
 from functools import partial
@@ -22,6 +22,9 @@ PLACES = "column row look_column thick_place middle_place region_column own_colu
 GLOSS = ("quadratic", "cubic", "square")
 """Roles of the nodes of which `through` computed what the gloss lets through."""
 
+NORMAL = ("given", "without", "own_normal")
+"""Roles of the nodes by which `normal` was that of the mesh where none was given."""
+
 SHADERS = ("skin", "near_skin")
 TINT_LINKS = [own for own in LINKS if own[-1] == TINT]
 EVEN_GLOSS_LINKS = [own for own in LINKS if own not in TINT_LINKS]
@@ -39,8 +42,25 @@ def take_over(group: Any, changes: Changes) -> None:
     changes.may_relink(group)
     if former == PLACES_LAYOUT:
         _take_over_places(group, changes)
+    _simplify_normal(group, changes)
     tint_gloss(group, changes)
     changes.set_key(group, LAYOUT_KEY, LAYOUT)
+
+
+def _simplify_normal(group: Any, changes: Changes) -> None:
+    """Have one node give the normal, where arithmetic did; a film goes on with the mesh's own."""
+    roles = NORMAL if any(of_role(group, "film_relief")) else (*NORMAL, "geometry")
+    for role in roles:
+        for node in of_role(group, role):
+            bypass(group, node, [], changes)
+    for former in list(of_role(group, "normal")):
+        take_role(former, changes)
+        node = new_node(group, "normal")
+        for own in former.inputs[0].links:
+            group.links.new(own.from_socket, node.inputs["Normal"])
+        for own in list(former.outputs[0].links):
+            group.links.new(node.outputs["Normal"], own.to_socket)
+        changes.at_the_end(partial(group.nodes.remove, former))
 
 
 def tint_gloss(group: Any, changes: Changes) -> None:

@@ -34,10 +34,6 @@ SHARPEST = 0.3
 TINT = "Specular Tint"
 """Input of a shader that is a factor on its gloss, and may be above 1."""
 
-LONG = 1e5
-"""What a normal is multiplied by, so that one which is added turns it by no more than 1e-5. Where
-none is given that of the mesh is left. Shaders bring them to a length of 1."""
-
 Link = tuple[str, str | int, str, str | int]
 """From a role and its output to a role and its input."""
 
@@ -178,10 +174,9 @@ ROLES = {
         "MULTIPLY_ADD", "Roughness by oil", (1900, 0), at_1=SHARPEST - 1.0, at_2=1.0
     ),
     "sharper": math_role("MULTIPLY", "Roughness of oiled skin", (2050, 0)),
-    "geometry": Role("ShaderNodeNewGeometry", "Normal of the mesh", (1900, -500)),
-    "normal": vector_role(
-        "MULTIPLY_ADD", "Normal, or that of the mesh", (2200, -400), at_1=(LONG,) * 3
-    ),
+    # A bump without a height is for Cycles what is linked to it, or else the mesh's own normal. Any
+    # other node would have it evaluate the shader again where light leaves the skin: 1.15 times.
+    "normal": Role("ShaderNodeBump", "Normal, or that of the mesh", (2200, -400)),
     # A second shader takes a fourth more time, so that where both would have one gloss the near
     # light is that of a diffuse shader, whose colour takes account of the gloss.
     "two_lobes": math_role("GREATER_THAN", "Whether one gloss is sharper", (1250, 900), at_1=0.0),
@@ -203,7 +198,7 @@ ROLES = {
 }
 
 SHADERS = frozenset(
-    "dryness sharper geometry normal two_lobes far_weight "
+    "dryness sharper normal two_lobes far_weight "
     "let_through beneath near_shown near_light light "
     "near_skin lobes far_base near_scaled near_part far_part base gain slope "
     "facing turned".split()
@@ -280,9 +275,8 @@ LINKS: tuple[Link, ...] = (
     ("dryness", "Value", "sharper", 0),
     ("input", "Roughness", "sharper", 1),
     ("sharper", "Value", "near_skin", "Roughness"),
-    ("input", "Normal", "normal", 0),
-    ("geometry", "Normal", "normal", 2),
-    *(("normal", "Vector", role, "Normal") for role in ("skin", "near_skin")),
+    ("input", "Normal", "normal", "Normal"),
+    *(("normal", "Normal", role, "Normal") for role in ("skin", "near_skin")),
     *(("input", "Specular", role, "Specular IOR Level") for role in ("skin", "near_skin")),
     ("near_skin", "BSDF", "lobes", 1),
     ("skin", "BSDF", "lobes", 2),
@@ -296,7 +290,7 @@ LINKS: tuple[Link, ...] = (
     ("near_part", "Vector", "near_shown", 0),
     ("beneath", "Value", "near_shown", "Scale"),
     ("near_shown", "Vector", "near_light", "Color"),
-    ("normal", "Vector", "near_light", "Normal"),
+    ("normal", "Normal", "near_light", "Normal"),
     ("lobes", "Shader", "light", 0),
     ("near_light", "BSDF", "light", 1),
     ("light", "Shader", "output", "Surface"),

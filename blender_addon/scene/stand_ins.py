@@ -37,8 +37,8 @@ COLOUR = {
     "view_colour": StandIn("mixed_colour", "Vector", "A_Color", "Result_Color", "ratio"),
 }
 NORMAL = {
-    "peel_normal": StandIn("normal", "Vector", 0, "Vector"),
-    "peel_relief": StandIn("normal", "Vector", "Normal", "Normal"),
+    "peel_normal": StandIn("normal", "Normal", 0, "Vector"),
+    "peel_relief": StandIn("normal", "Normal", "Normal", "Normal"),
 }
 """Nodes by role that stand in for one output, in the order in which they follow one another."""
 

@@ -43,11 +43,12 @@ def test_nodes_and_images_are_today_s(body):
     group = body.skin_tan.group
     assert apply(body) == {"FINISHED"}
     assert body.skin_tan.group == group and group[plan.LAYOUT_KEY] == plan.LAYOUT
-    former = {*layout_2.PLACES, *layout_2.GLOSS, "through"}
+    former = {*layout_2.PLACES, *layout_2.GLOSS, *layout_2.NORMAL, "through"}
     assert {role_of(node) for node in group.nodes} & former == {"thick_place"}
     (own,) = labelled(group.nodes, "Mine").inputs[0].links
     assert own.from_node == of_role(body, "thick_place")
     assert of_role(body, "mixed_colour").bl_idname == "ShaderNodeVectorMath"
+    assert of_role(body, "normal").bl_idname == "ShaderNodeBump"
     assert {image.name for image in nodes.made_images(group)} == {
         image.name for image in bpy.data.images
     }

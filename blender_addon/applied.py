@@ -94,8 +94,14 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene, frames: Frames | None
     return SEPARATOR.join(map(repr, lines))
 
 
-def note(obj: bpy.types.Object, text: str, changes: Changes) -> None:
-    """Remember that an object's look is that of its settings, of which a text tells."""
+def note(obj: bpy.types.Object, text: str, changes: Changes, *, rough: bool = False) -> None:
+    """Remember that an object's look is that of its settings, of which a text tells.
+
+    One that is rough is told by a text that no settings have: after an undo only Apply mends it.
+    """
+    if rough:
+        schedule, biology, skin, rest = text.split(SEPARATOR)
+        text = SEPARATOR.join((schedule, biology, f"{skin} rough", rest))
     if settings_of(obj).applied != text:
         changes.set(settings_of(obj), "applied", text)
 
@@ -109,9 +115,14 @@ def content(text: str, *, rough: bool) -> str:
     return digest(text) + " roughly" * rough
 
 
-def look_digest(text: str) -> str:
-    """Digest of the biology and the skin in a text."""
-    return digest(SEPARATOR.join(text.split(SEPARATOR)[1:3]))
+def look_digest(text: str, *, rough: bool = False) -> str:
+    """Digest of what decides a look in a text: biology, skin, and sensitivity by hand.
+
+    A rough look has another, so that none counts as exact after an undo.
+    """
+    doses = _sensitivity(text)
+    more = [*([repr(doses)] if doses else []), *(["rough"] if rough else [])]
+    return digest(SEPARATOR.join([*text.split(SEPARATOR)[1:3], *more]))
 
 
 def is_changed(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:

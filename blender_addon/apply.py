@@ -163,13 +163,12 @@ def _note(
     *,
     rough: bool,
 ) -> None:
-    """Note in images, and where they are exact on the object, of which settings they are."""
+    """Note in images and on the object of which settings they are, and whether exactly."""
     images.note_content(made_of_masks(skin.group), applied.content(text, rough=rough))
     images.note_content(sampled.of_history(), applied.digest(text))
     if rough and settings_of(obj).biology.is_changed():
-        images.note_shown(sampled.of_look(), applied.look_digest(text))
-    if not rough:
-        applied.note(obj, text, changes)
+        images.note_shown(sampled.of_look(), applied.look_digest(text, rough=True))
+    applied.note(obj, text, changes, rough=rough)
 
 
 def _show_film(obj: bpy.types.Object, skin: skins.Skin, sampled: Sampled, changes: Changes) -> None:

@@ -231,7 +231,7 @@ def show_look(obj: bpy.types.Object, text: str, *, rough: bool) -> None:
     tannable(obj)
     settings = settings_of(obj)
     look = look_of(settings.values(), rough=rough)
-    content = applied.look_digest(text)
+    content = applied.look_digest(text, rough=rough)
     for role, image in (nodes.own_look(settings.group) or {}).items():
         values = offsets(look) if role == "own_image" else getattr(look, role)
         images.swap_pixels(image, values, content, pack=True)

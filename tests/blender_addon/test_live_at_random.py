@@ -191,6 +191,20 @@ def masked(tanned, monkeypatch, tmp_path):
     tan._basis.cache_clear()
 
 
+def test_a_rough_apply_is_no_tan_of_before(tanned):
+    """What is turned on and off while it is dragged goes, whatever else changes meanwhile."""
+    settings = body().skin_tan
+    for is_on in (True, False):  # the first time sets the usual colour
+        settings.own_colour = is_on
+        apply(body())
+    settings.biology.blood, settings.own_colour = 1.5, True
+    live.show_changes()
+    assert own_colour.is_shown(settings.group)
+    settings.biology.blood, settings.own_colour = 1.0, False
+    settings.exposures[0].dose = 9.0
+    settled()
+
+
 @pytest.mark.parametrize("seed", SEEDS[:2])
 def test_a_few_changes(tanned, tmp_path, seed):
     run(seed, tmp_path, FEW)

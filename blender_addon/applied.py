@@ -32,6 +32,9 @@ LATER = frozenset("peeling darkening altitude cloud ground through depth".split(
 tan of before counts as shown."""
 
 SEPARATOR = "\n"
+
+ROUGHLY = ", 'roughly']"
+"""How a line of settings ends that a tan shows for a moment only."""
 Frames = tuple[int, int, int, float]
 """Of a scene: the first, the last, those of a second, and what divides these."""
 
@@ -94,16 +97,26 @@ def text_of(obj: bpy.types.Object, scene: bpy.types.Scene, frames: Frames | None
     return SEPARATOR.join(map(repr, lines))
 
 
-def note(obj: bpy.types.Object, text: str, changes: Changes, *, rough: bool = False) -> None:
-    """Remember that an object's look is that of its settings, of which a text tells.
-
-    One that is rough is told by a text that no settings have: after an undo only Apply mends it.
-    """
-    if rough:
-        schedule, biology, skin, rest = text.split(SEPARATOR)
-        text = SEPARATOR.join((schedule, biology, f"{skin} rough", rest))
+def note(obj: bpy.types.Object, text: str, changes: Changes) -> None:
+    """Remember that an object's look is that of its settings, of which a text tells."""
     if settings_of(obj).applied != text:
         changes.set(settings_of(obj), "applied", text)
+
+
+def roughly(text: str, *, look: bool, history: bool) -> str:
+    """A text that no settings have, for those that show for a moment: they count as changed.
+
+    Parameters
+    ----------
+    look, history : bool
+        Whether that is rough.
+    """
+    schedule, biology, *others = text.split(SEPARATOR)
+    return SEPARATOR.join([_marked(schedule, history), _marked(biology, look), *others])
+
+
+def _marked(line: str, is_rough: bool) -> str:
+    return line.removesuffix("]") + ROUGHLY if is_rough else line
 
 
 def digest(text: str) -> str:
@@ -158,10 +171,10 @@ def _sensitivity(text: str) -> list[object]:
 
 
 def is_only_biology_changed(former: str, now: str) -> bool:
-    """Whether no setting but the biology differs in two texts."""
-    schedule, *others = former.split(SEPARATOR)
-    schedule_now, *others_now = now.split(SEPARATOR)
-    return former != now and (schedule, others[1:]) == (schedule_now, others_now[1:])
+    """Whether no setting but the biology differs in two texts, however rough the history is."""
+    schedule, _, *others = former.replace(ROUGHLY + SEPARATOR, "]" + SEPARATOR).split(SEPARATOR)
+    schedule_now, _, *others_now = now.split(SEPARATOR)
+    return former != now and (schedule, others) == (schedule_now, others_now)
 
 
 def _value(group: bpy.types.PropertyGroup | SkinTanSettings, name: str) -> object:

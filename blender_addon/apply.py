@@ -164,11 +164,16 @@ def _note(
     rough: bool,
 ) -> None:
     """Note in images and on the object of which settings they are, and whether exactly."""
-    images.note_content(made_of_masks(skin.group), applied.content(text, rough=rough))
+    of_masks, is_biology_own = made_of_masks(skin.group), settings_of(obj).biology.is_changed()
+    images.note_content(of_masks, applied.content(text, rough=rough))
     images.note_content(sampled.of_history(), applied.digest(text))
-    if rough and settings_of(obj).biology.is_changed():
+    if rough and is_biology_own:
         images.note_shown(sampled.of_look(), applied.look_digest(text, rough=True))
-    applied.note(obj, text, changes, rough=rough)
+    applied.note(
+        obj,
+        applied.roughly(text, look=is_biology_own, history=bool(of_masks)) if rough else text,
+        changes,
+    )
 
 
 def _show_film(obj: bpy.types.Object, skin: skins.Skin, sampled: Sampled, changes: Changes) -> None:

@@ -47,6 +47,8 @@ LINE, PORE = 0.09, (0.62, 0.8)
 LINE_MILLIMETRES, PORE_MILLIMETRES = 0.04, 0.045
 """Depth of a line and of a pore, by eye."""
 
+BLOTCHES_PER_MILLIMETRE = 0.08
+
 MELANIN_RANGE, BLOOD_RANGE = (0.94, 1.07), (0.7, 1.42)
 """Factors from the palest to the darkest and from the palest to the most flushed blotch."""
 
@@ -56,13 +58,37 @@ def _noise(label: str, location: tuple[int, int], per_millimetre: float, detail:
     return Role("ShaderNodeTexNoise", label, location, {}, inputs)
 
 
-def _factor(label: str, location: tuple[int, int], ends: tuple[float, float]) -> Role:
-    # Noise of one octave is .25 to .75 nearly everywhere.
+def _variation(ends: tuple[float, float], place: str, row: int) -> dict[str, Role]:
+    """Nodes that make a factor of a blotch: noise of one octave is .25 to .75 nearly everywhere.
+
+    But for one they have sliders alone as inputs, so that Cycles computes them beforehand.
+    """
     slope = (ends[1] - ends[0]) / 0.5
-    return math_role("MULTIPLY_ADD", label, location, at_1=slope, at_2=ends[0] - 1.0 - 0.25 * slope)
+    start = ends[0] - 1.0 - 0.25 * slope
+    return {
+        f"{place}_slope": math_role("MULTIPLY", "Slope of it", (-300, row), at_1=slope),
+        f"{place}_start": math_role(
+            "MULTIPLY_ADD", "Start of it", (-100, row - 180), at_1=start, at_2=1.0
+        ),
+        place: math_role("MULTIPLY_ADD", f"More or less {place}", (250, row)),
+        f"more_{place}": math_role("MULTIPLY", f"{place.capitalize()} in all", (450, row)),
+    }
 
 
-# The height in mm is less by so much for each unit of noise beyond the edge of a line or a pore.
+def _variation_links(place: str, name: str) -> tuple[Link, ...]:
+    return (
+        ("input", "Variation", f"{place}_slope", 0),
+        ("input", "Variation", f"{place}_start", 0),
+        ("blotches", "Fac", place, 0),
+        (f"{place}_slope", "Value", place, 1),
+        (f"{place}_start", "Value", place, 2),
+        (place, "Value", f"more_{place}", 0),
+        ("input", name, f"more_{place}", 1),
+        (f"more_{place}", "Value", "output", name),
+    )
+
+
+# The skin is so many mm deeper for each unit of noise beyond the edge of a line or a pore.
 LINE_SLOPE, PORE_SLOPE = LINE_MILLIMETRES / LINE, PORE_MILLIMETRES / (PORE[1] - PORE[0])
 LINE_EDGE = 0.5 - LINE
 
@@ -89,34 +115,25 @@ ROLES = {
         "SMOOTH_MAX", "Beyond a line's edge", (0, 500), at_1=LINE_EDGE, at_2=0.01 / LINE_SLOPE
     ),
     "in_pore": math_role("MAXIMUM", "Beyond a pore's edge", (0, 250), at_1=PORE[0]),
-    "pores": math_role(
-        "MULTIPLY_ADD",
-        "Height by pores in mm",
-        (150, 250),
-        at_1=-PORE_SLOPE,
-        at_2=PORE_SLOPE * PORE[0] + LINE_SLOPE * LINE_EDGE,
+    "height": math_role(
+        "MULTIPLY_ADD", "Depth over that of a pore", (150, 400), at_1=LINE_SLOPE / PORE_SLOPE
     ),
-    "height": math_role("MULTIPLY_ADD", "Height in mm", (150, 500), at_1=-LINE_SLOPE),
-    "deep": math_role("MULTIPLY", "Relief", (300, 250)),
-    "bump": Role("ShaderNodeBump", "Relief as normals", (450, 250), {}, {"Strength": 1.0}),
-    "pigment": _noise("Blotches of melanin", (-550, -250), 0.12, 0.0),
-    "pigment_factor": _factor("More or less melanin", (-300, -250), MELANIN_RANGE),
-    "melanin": math_role("MULTIPLY_ADD", "Melanin", (250, -250), at_2=1.0),
-    "more_melanin": math_role("MULTIPLY", "Melanin in all", (450, -250)),
-    "vessels": _noise("Blotches of blood", (-550, -500), 0.05, 0.0),
-    "vessels_factor": _factor("More or less blood", (-300, -500), BLOOD_RANGE),
-    "blood": math_role("MULTIPLY_ADD", "Blood", (250, -500), at_2=1.0),
-    "more_blood": math_role("MULTIPLY", "Blood in all", (450, -500)),
+    "deep": math_role("MULTIPLY", "Depth of a pore in mm", (50, 50), at_1=PORE_SLOPE),
+    "deep_units": math_role("MULTIPLY", "Depth of a pore", (250, 50)),
+    "bump": Role(
+        "ShaderNodeBump", "Relief as normals", (450, 250), {"invert": True}, {"Strength": 1.0}
+    ),
+    "blotches": _noise("Blotches", (-550, -250), BLOTCHES_PER_MILLIMETRE, 0.0),
+    **_variation(MELANIN_RANGE, "melanin", -200),
+    **_variation(BLOOD_RANGE, "blood", -550),
     "output": Role("NodeGroupOutput", "", (700, 0)),
 }
 
 LINKS: tuple[Link, ...] = (
     ("rest", "Generated", "millimetres", 0),
     ("input", SIZE, "millimetres", 1),
-    *(
-        ("millimetres", "Vector", texture, "Vector")
-        for texture in ("texture", "pigment", "vessels")
-    ),
+    ("millimetres", "Vector", "texture", "Vector"),
+    ("millimetres", "Vector", "blotches", "Vector"),
     ("millimetres", "Vector", "across", 0),
     ("texture", "Fac", "bent", 0),
     ("across", "Value", "bent", 2),
@@ -126,26 +143,16 @@ LINKS: tuple[Link, ...] = (
     ("other_lines", "Value", "all_lines", 1),
     ("all_lines", "Value", "in_line", 0),
     ("texture", "Fac", "in_pore", 0),
-    ("in_pore", "Value", "pores", 0),
     ("in_line", "Value", "height", 0),
-    ("pores", "Value", "height", 2),
-    ("height", "Value", "deep", 0),
-    ("input", "Relief", "deep", 1),
-    ("deep", "Value", "bump", "Height"),
-    ("input", "Millimetre", "bump", "Distance"),
+    ("in_pore", "Value", "height", 2),
+    ("height", "Value", "bump", "Height"),
+    ("input", "Relief", "deep", 0),
+    ("deep", "Value", "deep_units", 0),
+    ("input", "Millimetre", "deep_units", 1),
+    ("deep_units", "Value", "bump", "Distance"),
     ("bump", "Normal", "output", "Normal"),
-    ("pigment", "Fac", "pigment_factor", 0),
-    ("pigment_factor", "Value", "melanin", 0),
-    ("input", "Variation", "melanin", 1),
-    ("melanin", "Value", "more_melanin", 0),
-    ("input", "Melanin", "more_melanin", 1),
-    ("more_melanin", "Value", "output", "Melanin"),
-    ("vessels", "Fac", "vessels_factor", 0),
-    ("vessels_factor", "Value", "blood", 0),
-    ("input", "Variation", "blood", 1),
-    ("blood", "Value", "more_blood", 0),
-    ("input", "Blood", "more_blood", 1),
-    ("more_blood", "Value", "output", "Blood"),
+    *_variation_links("melanin", "Melanin"),
+    *_variation_links("blood", "Blood"),
 )
 
 

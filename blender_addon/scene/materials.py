@@ -10,8 +10,8 @@ from .ownership import MADE, names
 
 PREFIX = "Skin Tan "
 
-NEW_SKIN = {"Relief": 1.0, "Variation": 1.0, "Oil": 0.15}
-"""Sliders of a new material; all 0 is the even, dry skin of the light model."""
+NEW_SKIN = {"Relief": 1.0, "Variation": 1.0}
+"""Sliders of a new material, which is dry; all 0 is the even skin of the light model."""
 
 
 def new_material(group: bpy.types.NodeTree, name: str) -> bpy.types.Material:

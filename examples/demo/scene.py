@@ -166,13 +166,11 @@ def add_attribute(mesh: bpy.types.Mesh, name: str, values: np.ndarray) -> None:
 
 
 def make_even(obj: bpy.types.Object) -> None:
-    """Take relief, blotches and oil from a tanned object's skin, as the light model has it."""
+    """Take relief and blotches from a tanned object's skin, as the light model has it."""
     for material in filter(None, (slot.material for slot in obj.material_slots)):
         tree = material.node_tree
         for node in list(tree.nodes):
-            if "Oil" in node.inputs:
-                node.inputs["Oil"].default_value = 0.0
-            elif "Relief" in node.inputs:
+            if "Relief" in node.inputs:
                 tree.nodes.remove(node)
 
 

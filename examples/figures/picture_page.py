@@ -41,7 +41,7 @@ Freckles and moles (four times the melanin at most), films and lights are ASSUME
 bodies are MakeHuman's, for the thesis's meshes were not to be had.
 
 6.27 to 6.29 are made with tables and the add-on's Apply, with the relief and blotches of a material
-that it makes; only the oil is off. Sunscreen is its film, and the pictures at 365 nm are its view,
+that it makes. Sunscreen is its film, and the pictures at 365 nm are its view,
 which tints skin alone: the cap and what is behind stay as they are in the visible.
 """
 

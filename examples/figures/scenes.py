@@ -54,21 +54,12 @@ def tan(
         settings.first_day, settings.last_day = 0.0, LAST_DAY
         settings.first_frame, settings.last_frame = frame_of(0.0), frame_of(LAST_DAY)
         apply_tan(tanned, bpy.context.scene)
-        take_oil(tanned)
         if len(schedules) > 1:  # blotches would pass for tans in small patches
             scene.make_even(tanned)
         if number:
             material = tanned.skin_tan.material
             bpy.data.objects.remove(tanned)
             obj.data.materials[number] = material
-
-
-def take_oil(obj: bpy.types.Object) -> None:
-    """Take the oil from a tanned object's skin, of which the thesis's has none."""
-    for slot in obj.material_slots:
-        for node in slot.material.node_tree.nodes if slot.material else ():
-            if "Oil" in node.inputs:
-                node.inputs["Oil"].default_value = 0.0
 
 
 def frame_of(day: float) -> int:

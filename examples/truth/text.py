@@ -137,10 +137,10 @@ Processor time of a picture of a ball of skin beside the same with one plain Pri
 subsurface, five times by turns: the shortest of either, and the largest ratio of a turn. The ball
 fills the picture, so that hardly anything else takes time.
 
-With relief and a little oil, as a new material has them, skin takes 2.2 times an even skin's time
-(2 are asked, which a slow test holds): where a normal is given, Cycles evaluates the shader again
-at every place where light leaves. Even skin is spared that since one node, which Cycles leaves out,
-gives its normal; before it took 1.35 times a plain one's time, and relief 1.9 times that.
+Relief and variation, as a new material has them, take 1.9 times an even skin's time, with oil 2.1
+(2 are asked of a new material, which a slow test holds): where a normal is given, Cycles evaluates
+the shader again at every place where light leaves. Even skin is spared that since one node, which
+Cycles leaves out, gives its normal.
 """
 
 EEVEE = """\

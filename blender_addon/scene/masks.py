@@ -46,6 +46,9 @@ COLOURS = ("FLOAT_COLOR", "BYTE_COLOR")
 BUILT_IN = frozenset(("material_index", "sharp_face"))
 """Attributes of Blender's own; nobody looks for a mask among them."""
 
+MOST_TOLD = 12
+"""Names of masks in one sentence."""
+
 LONGEST_NAME = 63
 """Bytes of the name of a new mask. Blender 4.5 has room for 67, of which a number takes four."""
 
@@ -220,13 +223,20 @@ def require_usable(obj: bpy.types.Object, mask: Mask) -> Source | None:
         ]
         raise InputError(
             f"The mesh has no {mask.source!r}, which is set as a mask; allowed are: "
-            f"{', '.join(usable[:12]) or 'none yet (press Paint Mask)'}."
+            f"{_told(usable)}."
         )
     if source.kind == "IMAGE":
         _require_image(obj, mask)
     elif source.kind != "GROUP":
         _require_attribute(source)
     return source
+
+
+def _told(usable: list[str]) -> str:
+    """Names of masks for a sentence, which does not grow with their number."""
+    told = ", ".join(usable[:MOST_TOLD]) or "vertex groups and attributes, which it has none of"
+    more = len(usable) - MOST_TOLD
+    return f"{told} and {more} more" if more > 0 else told
 
 
 def image_named(obj: bpy.types.Object, name: str) -> bpy.types.Image | None:

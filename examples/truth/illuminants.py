@@ -50,14 +50,16 @@ def built(skin: str, lamp: str) -> Path:
     Raises
     ------
     InputError
-        If that fails; the command itself has said why.
+        If that fails, with what the command says.
     """
     TABLES.mkdir(parents=True, exist_ok=True)
     path = (TABLES / f"{skin} {lamp}.exr").resolve()
     options = ["--specimen", skin, "--illuminant", lamp, "--preset", "preview", "--force"]
     command = [sys.executable, "-m", "lut_builder.cli", "build", *options, "-o", str(path)]
-    if subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode:
-        raise InputError(f"the table of {skin} for the illuminant {lamp} could not be built.")
+    ended = subprocess.run(command, capture_output=True, text=True)
+    if ended.returncode:
+        why = ended.stderr.strip().rpartition("\n")[2]
+        raise InputError(f"the table of {skin} for the illuminant {lamp} cannot be built: {why}")
     return path
 
 

@@ -143,3 +143,13 @@ def test_masks_are_offered_before_textures_of_the_skin(body):
     body.skin_tan.mask.source = "Gone"
     with pytest.raises(RuntimeError, match="no 'Gone', .*; allowed are: Cloth, Scar\\."):
         apply(body)
+
+
+def test_the_sentence_on_a_missing_mask_names_a_dozen_that_are_there(body):
+    body.skin_tan.mask.source = "Gone"
+    with pytest.raises(RuntimeError, match="allowed are: vertex groups .* none of\\."):
+        apply(body)
+    for number in range(15):
+        body.vertex_groups.new(name=f"Part {number:02d}")
+    with pytest.raises(RuntimeError, match="Part 00, .*, Part 11 and 3 more\\."):
+        apply(body)

@@ -73,6 +73,8 @@ def take_out(group: Any, plans: Mapping[str, StandIn], roles: Iterable[str]) -> 
     """Link what was replaced where it was linked before, and remove the nodes of some roles."""
     for role, plan in plans.items():
         for node in nodes.of_role(group, role):
+            if not node.inputs:
+                continue  # of an earlier layout: a plain colour, which kept nothing
             kept = nodes.find_input(node, plan.input)
             nodes.bridge(group, kept, nodes.find_output(node, plan.gives))
     for node in [node for role in roles for node in nodes.of_role(group, role)]:

@@ -1,6 +1,6 @@
 """Every test here starts from an empty scene with the add-on registered.
 
-New materials are without relief, blotches and oil, as the light model has skin.
+New materials are without relief and blotches, as the light model has skin.
 """
 
 import pytest

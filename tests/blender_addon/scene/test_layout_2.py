@@ -13,7 +13,7 @@ from test_layout_1 import labelled
 from test_shader import show_emission_of
 
 from blender_addon.model import catalogue
-from blender_addon.scene import layout_2, nodes, plan
+from blender_addon.scene import layout_2, nodes, plan, views
 from blender_addon.scene.nodes import role_of
 from hylios.lab.colour import difference
 
@@ -71,20 +71,38 @@ def test_without_regions_the_untanned_colour_is_that_of_the_skin(body):
     assert not of_role(body, "untanned").texture_mapping.scale[0]
 
 
+def as_layout_3(obj) -> None:
+    """Have a tan's gloss be as by layout 3, in a view of another band, which a colour tinted."""
+    group = tan_group(obj)
+    for role in layout_2.SHADERS:
+        end = of_role(obj, role).inputs["Specular Tint"]
+        group.links.remove(end.links[0])
+    former = group.nodes.new("ShaderNodeRGB")
+    former.name = f"{plan.ROLE_PREFIX}view_tint"
+    group.links.new(former.outputs[0], end)
+    group[plan.LAYOUT_KEY] = 3
+
+
 @pytest.mark.parametrize("tint", [(1.0, 1.0, 1.0, 1.0), (1.0, 0.8, 0.6, 1.0)])
 def test_gloss_that_was_alike_at_all_angles(table_path, tint):
     """By layout 3, in a view of another band too; an artist's tint stays."""
     obj = tan_object(table_path)
     assert apply(obj) == {"FINISHED"}
-    group, skin = tan_group(obj), of_role(obj, "skin")
-    end = skin.inputs["Specular Tint"]
-    group.links.remove(end.links[0])
+    as_layout_3(obj)
+    group, end = tan_group(obj), of_role(obj, "skin").inputs["Specular Tint"]
     end.default_value = tint
-    former = group.nodes.new("ShaderNodeRGB")
-    former.name = f"{plan.ROLE_PREFIX}view_tint"
-    group.links.new(former.outputs[0], of_role(obj, "near_skin").inputs["Specular Tint"])
-    group[plan.LAYOUT_KEY] = 3
     assert apply(obj) == {"FINISHED"} and group[plan.LAYOUT_KEY] == plan.LAYOUT
     assert end.is_linked == (tint[1] == 1.0)
     assert not any(node.bl_idname == "ShaderNodeRGB" for node in group.nodes)
     assert tuple(end.default_value) == pytest.approx(tint)
+
+
+def test_out_of_a_view_by_layout_3_before_apply(table_path):
+    obj = tan_object(table_path)
+    assert apply(obj) == {"FINISHED"}
+    as_layout_3(obj)
+    tan_group(obj)[views.VIEW_KEY] = bpy.context.scene[views.VIEW_KEY] = "NM365"
+    assert bpy.ops.skin_tan.switch_view(view="VISIBLE") == {"FINISHED"}
+    assert views.shown_view(tan_group(obj)) is None and views.view_of_file() is None
+    assert not any(node.bl_idname == "ShaderNodeRGB" for node in tan_group(obj).nodes)
+    assert not of_role(obj, "near_skin").inputs["Specular Tint"].is_linked

@@ -61,14 +61,18 @@ def _noise(label: str, location: tuple[int, int], per_millimetre: float, detail:
 def _variation(ends: tuple[float, float], place: str, row: int) -> dict[str, Role]:
     """Nodes that make a factor of a blotch: noise of one octave is .25 to .75 nearly everywhere.
 
-    But for one they have sliders alone as inputs, so that Cycles computes them beforehand.
+    The first two have sliders alone as inputs, so that Cycles computes them beforehand.
     """
     slope = (ends[1] - ends[0]) / 0.5
     start = ends[0] - 1.0 - 0.25 * slope
     return {
-        f"{place}_slope": math_role("MULTIPLY", "Slope of it", (-300, row), at_1=slope),
+        f"{place}_slope": math_role("MULTIPLY", f"Contrast of {place}", (-300, row), at_1=slope),
         f"{place}_start": math_role(
-            "MULTIPLY_ADD", "Start of it", (-100, row - 180), at_1=start, at_2=1.0
+            "MULTIPLY_ADD",
+            f"{place.capitalize()} at no noise",
+            (-100, row - 180),
+            at_1=start,
+            at_2=1.0,
         ),
         place: math_role("MULTIPLY_ADD", f"More or less {place}", (250, row)),
         f"more_{place}": math_role("MULTIPLY", f"{place.capitalize()} in all", (450, row)),
@@ -115,11 +119,11 @@ ROLES = {
         "SMOOTH_MAX", "Beyond a line's edge", (0, 500), at_1=LINE_EDGE, at_2=0.01 / LINE_SLOPE
     ),
     "in_pore": math_role("MAXIMUM", "Beyond a pore's edge", (0, 250), at_1=PORE[0]),
-    "height": math_role(
-        "MULTIPLY_ADD", "Depth over that of a pore", (150, 400), at_1=LINE_SLOPE / PORE_SLOPE
+    "depth": math_role(
+        "MULTIPLY_ADD", "Depth in units of the noise", (150, 400), at_1=LINE_SLOPE / PORE_SLOPE
     ),
-    "deep": math_role("MULTIPLY", "Depth of a pore in mm", (50, 50), at_1=PORE_SLOPE),
-    "deep_units": math_role("MULTIPLY", "Depth of a pore", (250, 50)),
+    "unit_mm": math_role("MULTIPLY", "A unit of depth in mm", (50, 50), at_1=PORE_SLOPE),
+    "unit": math_role("MULTIPLY", "A unit of depth in scene units", (250, 50)),
     "bump": Role(
         "ShaderNodeBump", "Relief as normals", (450, 250), {"invert": True}, {"Strength": 1.0}
     ),
@@ -143,13 +147,13 @@ LINKS: tuple[Link, ...] = (
     ("other_lines", "Value", "all_lines", 1),
     ("all_lines", "Value", "in_line", 0),
     ("texture", "Fac", "in_pore", 0),
-    ("in_line", "Value", "height", 0),
-    ("in_pore", "Value", "height", 2),
-    ("height", "Value", "bump", "Height"),
-    ("input", "Relief", "deep", 0),
-    ("deep", "Value", "deep_units", 0),
-    ("input", "Millimetre", "deep_units", 1),
-    ("deep_units", "Value", "bump", "Distance"),
+    ("in_line", "Value", "depth", 0),
+    ("in_pore", "Value", "depth", 2),
+    ("depth", "Value", "bump", "Height"),
+    ("input", "Relief", "unit_mm", 0),
+    ("unit_mm", "Value", "unit", 0),
+    ("input", "Millimetre", "unit", 1),
+    ("unit", "Value", "bump", "Distance"),
     ("bump", "Normal", "output", "Normal"),
     *_variation_links("melanin", "Melanin"),
     *_variation_links("blood", "Blood"),

@@ -127,7 +127,7 @@ def test_nodes_are_switched_on_only_where_there_are_none():
     for name in tracked(ROOT, "."):
         if name.endswith(".py"):
             text = (ROOT / name).read_text(encoding="utf-8")
-            for before in re.findall(r"(.*)\n *\w+\.use_nodes = True", text):
+            for before in re.findall(r"(.*)\n *[\w.]+\.use_nodes = True", text):
                 assert "node_tree is None:" in before, name
 
 

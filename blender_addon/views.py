@@ -66,7 +66,8 @@ def switch_view(view: str) -> str:
             if (why := _switch(group, views.trees_of(group, groups[group]), view, band, changes))
         }
         if own and len(failed) == len(own):
-            raise InputError(_sentence(failed, groups))
+            says = f"{_called(view).capitalize()} cannot be shown on"
+            raise InputError(_sentence(says, failed, groups))
         views.set_view_of_file(None if view == VISIBLE else view, changes)
         views.remove_unused_images(changes)
     linked = [obj for group in groups.keys() - set(own) for obj in groups[group]]
@@ -74,7 +75,7 @@ def switch_view(view: str) -> str:
     return " ".join(
         [
             f"{_called(view).capitalize()} is shown on {names(shown) or 'no skin yet'}.",
-            *([_sentence(failed, groups)] if failed else []),
+            *([_sentence("The visible stays on", failed, groups)] if failed else []),
             *([f"Linked skin stays as it is: {names(linked)}."] if linked else []),
         ]
     )
@@ -151,7 +152,9 @@ def _called(view: str) -> str:
     return "the visible" if view == VISIBLE else f"{VIEWS[view].nm:g} nm"
 
 
-def _sentence(failed: Mapping[Any, str], groups: Mapping[Any, list[bpy.types.Object]]) -> str:
-    """Which objects show the visible still, and why the first of them does."""
+def _sentence(
+    says: str, failed: Mapping[Any, str], groups: Mapping[Any, list[bpy.types.Object]]
+) -> str:
+    """What is said of objects that cannot show a view, and why the first of them cannot."""
     objects = [obj for group in failed for obj in groups[group]]
-    return f"The visible stays on {names(objects)}: {next(iter(failed.values()))}."
+    return f"{says} {names(objects)}: {next(iter(failed.values()))}."

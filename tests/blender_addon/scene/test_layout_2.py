@@ -57,7 +57,8 @@ def test_nodes_and_images_are_today_s(body):
 
 
 def test_before_apply_it_shows_no_view(body):
-    with pytest.raises(RuntimeError, match="an earlier version made this tan; press Apply Tan"):
+    said = "1100 nm cannot be shown on 'Body': an earlier version made this tan; press Apply Tan"
+    with pytest.raises(RuntimeError, match=said):
         bpy.ops.skin_tan.switch_view(view="NM1100")
     assert apply(body) == {"FINISHED"}
     assert bpy.ops.skin_tan.switch_view(view="NM1100") == {"FINISHED"}

@@ -80,7 +80,7 @@ def as_layout_3(obj) -> None:
         group.links.remove(end.links[0])
     former = group.nodes.new("ShaderNodeRGB")
     former.name = f"{plan.ROLE_PREFIX}view_tint"
-    group.links.new(former.outputs[0], end)
+    group.links.new(former.outputs[0], of_role(obj, "near_skin").inputs["Specular Tint"])
     group[plan.LAYOUT_KEY] = 3
 
 

@@ -132,10 +132,13 @@ def is_in_place(obj: bpy.types.Object) -> bool:
 
 def fits(obj: bpy.types.Object) -> bool:
     """Whether the images of an object that is in place hold what its settings lead to."""
+    return _holds_peeling(obj) and (not has_several(obj) or bool(_packed(*_exact(obj))))
+
+
+def _holds_peeling(obj: bpy.types.Object) -> bool:
+    """Whether the image of what peels, if there is one, has the size of what peels now."""
     sizes = [(own.shape[1], own.shape[0]) for own in _peeled(obj)]
-    if sizes != [tuple(image.size) for image in _peeling_images(obj)]:
-        return False
-    return not has_several(obj) or bool(_packed(*_exact(obj)))
+    return sizes == [tuple(image.size) for image in _peeling_images(obj)]
 
 
 def show_exact(obj: bpy.types.Object, content: str) -> None:
@@ -181,28 +184,34 @@ def show_day(obj: bpy.types.Object, content: str) -> bool:
     """
     settings, shown = settings_of(obj), shown_images(obj)
     day = timeline.shown_day(obj) or 0.0
-    owner, wanted = obj.session_uid, f"{content} on day {day}"
+    owner, wanted, which = obj.session_uid, f"{content} on day {day}", which_masks(obj)
     done = DAYS.taken(owner)
     if done is not None:
-        (_, told, *_), made = done
-        if made is not None and room_of(shown).holds(made):
-            _show_roughly(shown, made, told)
+        (_, told, _, of_masks, *_), made = done
+        if made is not None and of_masks == which and room_of(shown).holds(made):
+            _show_roughly(obj, shown, made, told)
         elif told == wanted:
             return True
-    if shown["rows"].get(images.SHOWN) == wanted:
+    call = owner, wanted, settings.values(), which, day, room_of(shown)
+    if shown["rows"].get(images.SHOWN) == wanted or DAYS.is_refused(*call):
         return True
-    DAYS.is_at_hand(owner, wanted, settings.values(), which_masks(obj), day, room_of(shown))
+    DAYS.is_at_hand(*call)
     return False
 
 
-def _show_roughly(shown: Mapping[str, bpy.types.Image], made: Basis, content: str) -> None:
-    """Put a basis into images that hold it, until the file is closed."""
+def _show_roughly(
+    obj: bpy.types.Object, shown: Mapping[str, bpy.types.Image], made: Basis, content: str
+) -> None:
+    """Put a basis into images that hold it, and what peels, until the file is closed."""
     told = images_in(made, room_of(shown))
     # What shapes that are 0 are multiplied by does not matter.
     spare = {GRID.format(block) for block in range(blocks_of(made.rank), len(told))}
     for role, image in shown.items():
         if role not in spare:
             images.swap_pixels(image, told[role], content, pack=False)
+    if _holds_peeling(obj):
+        for image, own in zip(_peeling_images(obj), _peeled(obj), strict=True):
+            images.swap_pixels(image, own, content, pack=False)
 
 
 def called(masks: Sequence[Mask]) -> str:

@@ -1,5 +1,6 @@
 """Results that are computed in a thread before they are needed."""
 
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from threading import Thread
@@ -9,6 +10,9 @@ from hylios.errors import InputError
 
 THREAD = "Skin Tan ahead"
 """Name of the thread."""
+
+REFUSED = 64
+"""So many of the last calls without a result are remembered."""
 
 
 class Ahead:
@@ -25,9 +29,15 @@ class Ahead:
         self._thread: Thread | None = None
         self._arguments: tuple[Any, ...] | None = None
         self._result: Any = None
+        self._refused: deque[tuple[Any, ...]] = deque(maxlen=REFUSED)
 
     def is_at_hand(self, *arguments: Any) -> bool:
-        """Whether the last call was with these arguments, and is done; else it begins soon."""
+        """Whether the last call was with these arguments, and is done; else it begins soon.
+
+        So is a call that was refused, though others came later.
+        """
+        if self.is_refused(*arguments):
+            return True
         if self._thread is not None and self._thread.is_alive():
             return False
         if arguments == self._arguments:
@@ -48,7 +58,18 @@ class Ahead:
         taken, self._arguments = (self._arguments, self._result), None
         return taken
 
+    def is_refused(self, *arguments: Any) -> bool:
+        """Whether a call with these arguments has lately had no result, so that none begins again.
+
+        Else two callers, one of them refused, would take turns for ever.
+        """
+        return arguments in tuple(self._refused)  # the thread may add to it meanwhile
+
     def _call(self, *arguments: Any) -> None:
         self._result = None
-        with suppress(InputError):
-            self._result = self.function(*arguments)
+        try:
+            with suppress(InputError):
+                self._result = self.function(*arguments)
+        finally:
+            if self._result is None:
+                self._refused.append(arguments)

@@ -244,20 +244,27 @@ def basis_of(settings: TanSettings, which: Sequence[int], *, rough: bool = False
     """
     stamp = catalogue.stamp(settings.table)
     history_only = replace(settings, biology=Biology())
-    return _basis(history_only, stamp, tuple(which), rough)
+    made = _basis(history_only, stamp, tuple(which), rough)
+    if isinstance(made, InputError):
+        raise InputError(str(made))
+    return made
 
 
 @functools.lru_cache(maxsize=8)
 def _basis(
     settings: TanSettings, stamp: tuple[int, int], which: tuple[int, ...], rough: bool
-) -> Basis:
+) -> Basis | InputError:
+    """The basis, or why the table lacks its tans: both take seconds, and are kept."""
     made, states = basis(
         _received_by_masks(settings, which),
         _response(settings).melanin,
         precision=DRAG_BASIS if rough else FULL_BASIS,
         **_how(settings),
     )
-    _require_held(catalogue.table(settings.table), states, _response(settings))
+    try:
+        _require_held(catalogue.table(settings.table), states, _response(settings))
+    except InputError as error:
+        return error.with_traceback(None)
     return made
 
 

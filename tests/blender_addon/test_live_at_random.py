@@ -13,7 +13,7 @@ from blender_addon import applied, live, several, timers
 from blender_addon.model import catalogue, day_basis, room, tan
 from blender_addon.model.own_colour import offsets
 from blender_addon.model.tan import history_of, look_of, peeling_of
-from blender_addon.scene import exr, own_colour, peeling
+from blender_addon.scene import exr, images, own_colour, peeling
 
 FEW, MANY = 60, 500
 SEEDS = (1, 2, 3)
@@ -104,13 +104,18 @@ class Artist:
             self.random.choice(np.array(kinds, object), p=weights)()
 
 
+def finish(timer) -> None:
+    """Blender calls a timer until it has nothing left to do."""
+    end = time.monotonic() + 60.0
+    while timer() is not None:
+        assert time.monotonic() < end
+        time.sleep(0.001)
+
+
 def rest() -> None:
     """Blender calls timers until nothing is left to do."""
-    end = time.monotonic() + 120.0
     for timer in (live.show_changes, live.make_exact):
-        while timer() is not None:
-            assert time.monotonic() < end
-            time.sleep(0.001)
+        finish(timer)
 
 
 def settled() -> None:
@@ -212,6 +217,42 @@ def test_a_few_changes(tanned, tmp_path, seed):
 
 def test_a_few_changes_of_masks(masked, tmp_path):
     run(4, tmp_path, FEW // 2, rests=5)
+
+
+def test_what_is_refused_does_not_keep_another_object_waiting(masked):
+    """Whose day shows then, peeling too, where the first one stays as it was."""
+    first = body()
+    other = first.copy()
+    bpy.context.collection.objects.link(other)
+    other.skin_tan.peeling = True
+    apply(other)
+    before = [pixels(image) for image in live._history(first)]
+    exposure = first.skin_tan.exposures[0]
+    exposure.unit, exposure.month, exposure.day_of_month = "SUN", 2, 30
+    other.skin_tan.exposures[1].dose = 35.0
+    finish(live.show_changes)
+    assert " roughly on day " in several.shown_images(other)["rows"][images.SHOWN]
+    peeling_now = pixels(of_role(other, "peel_image").image)[..., :3]
+    np.testing.assert_array_equal(peeling_now, several._peeled(other)[0])
+    finish(live.make_exact)
+    assert not applied.is_changed(other, bpy.context.scene)
+    for image, own in zip(live._history(first), before, strict=True):
+        np.testing.assert_array_equal(pixels(image), own)
+
+
+def test_a_day_of_other_masks_is_never_shown(masked):
+    """It was computed for those that there were before an undo."""
+    settings = body().skin_tan
+    settings.exposures[4].dose = 20.0
+    assert live.show_changes() is not None
+    settings.exposures[3].enabled = settings.exposures[4].enabled = False
+    apply(body())
+    size = tuple(several.shown_images(body())["places"].size)
+    settings.exposures[0].dose = 11.0
+    several.DAYS._thread.join()
+    assert live.show_changes() is not None
+    assert tuple(several.shown_images(body())["places"].size) == size
+    settled()
 
 
 @pytest.mark.slow

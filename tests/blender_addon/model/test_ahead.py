@@ -33,12 +33,20 @@ def test_one_call_after_the_other():
 
 
 def test_what_is_refused_is_at_hand(capfd):
-    def refused(_):
-        raise InputError("no.")
+    """And stays so beside another call, which would never get its result otherwise."""
 
-    ahead = Ahead(refused)
+    def odd(number):
+        if number % 2 == 0:
+            raise InputError("no.")
+        return number
+
+    ahead = Ahead(odd)
+    assert not ahead.is_at_hand(2)
+    until_done(ahead, 2)
     assert not ahead.is_at_hand(1)
+    assert ahead.is_at_hand(2)
     until_done(ahead, 1)
+    assert ahead.is_refused(2) and not ahead.is_refused(1)
     assert not capfd.readouterr().err
 
 

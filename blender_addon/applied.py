@@ -35,6 +35,7 @@ SEPARATOR = "\n"
 
 ROUGHLY = ", 'roughly']"
 """How a line of settings ends that a tan shows for a moment only."""
+
 Frames = tuple[int, int, int, float]
 """Of a scene: the first, the last, those of a second, and what divides these."""
 

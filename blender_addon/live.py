@@ -142,7 +142,9 @@ def _waits_for_day(obj: bpy.types.Object, scene: bpy.types.Scene) -> bool:
         return False
     with suppress(InputError):
         tannable(obj)
-        return not show_day(obj, applied.content(text, rough=True))
+        # Every frame that plays would be another day, so that none came to an end.
+        any_day = timers.is_playing()
+        return not show_day(obj, applied.content(text, rough=True), any_day=any_day)
     return False
 
 

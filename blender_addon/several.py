@@ -22,9 +22,12 @@ from .scene.masks import Mask
 Packed = dict[str, tuple[NDArray[np.float32], bytes]]
 
 
-@functools.lru_cache(maxsize=4)
+@functools.lru_cache(maxsize=2)
 def _packed(values: TanSettings, which: tuple[int, ...], room: Room | None) -> Packed:
-    """The images of an exact basis, and their files, in a room that holds it; else none."""
+    """The images of an exact basis, and their files; none where images of that room cannot hold it.
+
+    One takes some 20 MB at most, so few are kept.
+    """
     made = basis_of(values, which)
     if room is None or not room.holds(made):
         return {}
@@ -37,7 +40,8 @@ AHEAD = Ahead(_packed)
 def _of_a_day(
     owner: int, content: str, values: TanSettings, which: Sequence[int], day: float, room: Room
 ) -> Basis:
-    """As `day_basis_of`, of an owner and for a content, which tell calls apart."""
+    """As `day_basis_of`, for an object (its session_uid); its images will be noted to come from
+    `content`."""
     del owner, content
     return day_basis_of(values, which, day, room)
 
@@ -81,7 +85,8 @@ def is_at_hand(obj: bpy.types.Object) -> bool:
 
 
 def _exact(obj: bpy.types.Object) -> tuple[TanSettings, tuple[int, ...], Room | None]:
-    """Settings, masks of exposures, and the room that there is, of an object's exact picture."""
+    """What `_packed` takes for an object: settings, the mask of every exposure, and the room in the
+    images that show it now."""
     shown = shown_images(obj)
     return settings_of(obj).values(), tuple(which_masks(obj)), room_of(shown) if shown else None
 
@@ -123,7 +128,7 @@ def room_of(shown: Mapping[str, bpy.types.Image]) -> Room:
 
 
 def is_in_place(obj: bpy.types.Object) -> bool:
-    """Whether an object shows the masks of its settings, so that others doses are other pixels."""
+    """Whether an object shows the masks of its settings, so that other doses are other pixels."""
     group = settings_of(obj).group
     if nodes.own_history(group) is None or has_several(obj) != several.is_shown(group):
         return False
@@ -131,8 +136,8 @@ def is_in_place(obj: bpy.types.Object) -> bool:
 
 
 def fits(obj: bpy.types.Object) -> bool:
-    """Whether the images of an object that is in place hold what its settings lead to."""
-    return _holds_peeling(obj) and (not has_several(obj) or bool(_packed(*_exact(obj))))
+    """Whether the images of several masks, which are in place, hold what settings lead to."""
+    return _holds_peeling(obj) and bool(_packed(*_exact(obj)))
 
 
 def _holds_peeling(obj: bpy.types.Object) -> bool:
@@ -167,7 +172,7 @@ def _peeling_images(obj: bpy.types.Object) -> tuple[bpy.types.Image, ...]:
     return (nodes.own_history(settings_of(obj).group) or ())[2:]
 
 
-def show_day(obj: bpy.types.Object, content: str) -> bool:
+def show_day(obj: bpy.types.Object, content: str, *, any_day: bool = False) -> bool:
     """Have an object that is in place show this frame's day exactly, and all others roughly.
 
     A thread computes it, so this must be called again until it shows.
@@ -176,6 +181,8 @@ def show_day(obj: bpy.types.Object, content: str) -> bool:
     ----------
     content : str
         What it comes from: the settings.
+    any_day : bool
+        Whether another day will do that is shown exactly already.
 
     Returns
     -------
@@ -193,7 +200,9 @@ def show_day(obj: bpy.types.Object, content: str) -> bool:
         elif told == wanted:
             return True
     call = owner, wanted, settings.values(), which, day, room_of(shown)
-    if shown["rows"].get(images.SHOWN) == wanted or DAYS.is_refused(*call):
+    now = shown["rows"].get(images.SHOWN, "")
+    is_enough = now == wanted or (any_day and now.startswith(content))
+    if is_enough or DAYS.is_refused(*call):
         return True
     DAYS.is_at_hand(*call)
     return False

@@ -1,6 +1,7 @@
 """Timers that wait until nothing has happened for a while."""
 
 from collections.abc import Callable
+from typing import Any, cast
 
 import bpy
 
@@ -11,6 +12,12 @@ Timer = Callable[[], float | None]
 def are_called() -> bool:
     """Whether there is a window: without one Blender calls no timers."""
     return not bpy.app.background
+
+
+def is_playing() -> bool:
+    """Whether a window plays the animation."""
+    windows = cast(Any, bpy.context).window_manager.windows
+    return any(window.screen.is_animation_playing for window in windows)
 
 
 def wait(timer: Timer, seconds: float) -> None:

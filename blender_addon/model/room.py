@@ -18,7 +18,17 @@ GRID = "grid_{}"
 
 @dataclass(frozen=True)
 class Room:
-    """Of the images of a basis: texels of a part, parts, and coefficients of a point."""
+    """How much the images of a basis hold, whatever they show now.
+
+    Attributes
+    ----------
+    points : int
+        Combinations of the masks' knots: texels of one part of the days in an image over shares.
+    parts : int
+        Parts of the days (`basis`).
+    rank : int
+        Shapes over time, and so coefficients of a point.
+    """
 
     points: int
     parts: int
@@ -38,7 +48,13 @@ def room_for(basis: Basis) -> Room:
 
 
 def room_in(rows: Sequence[int], grid: Sequence[int]) -> Room:
-    """Room in images of a width and height: that of the rows, and one over shares."""
+    """The room in images that are there.
+
+    Parameters
+    ----------
+    rows, grid : pair of int
+        Width and height of the image of the rows, and of one over shares.
+    """
     parts = rows[1] // (ROWS + 1)
     return Room(grid[0] * grid[1] // max(parts, 1), parts, rows[0] - 1)
 

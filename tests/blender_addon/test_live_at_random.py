@@ -219,7 +219,7 @@ def test_a_few_changes_of_masks(masked, tmp_path):
     run(4, tmp_path, FEW // 2, rests=5)
 
 
-def test_what_is_refused_does_not_keep_another_object_waiting(masked):
+def test_what_is_refused_does_not_keep_another_object_waiting(masked, monkeypatch):
     """Whose day shows then, peeling too, where the first one stays as it was."""
     first = body()
     other = first.copy()
@@ -232,6 +232,12 @@ def test_what_is_refused_does_not_keep_another_object_waiting(masked):
     other.skin_tan.exposures[1].dose = 35.0
     finish(live.show_changes)
     assert " roughly on day " in several.shown_images(other)["rows"][images.SHOWN]
+    bpy.context.scene.frame_set(100)
+    with monkeypatch.context() as playing:
+        playing.setattr(timers, "is_playing", lambda: True)
+        assert not live._waits_for_day(other, bpy.context.scene)
+    finish(live.show_changes)
+    assert several.shown_images(other)["rows"][images.SHOWN].endswith(f" {other['tan_day']}")
     peeling_now = pixels(of_role(other, "peel_image").image)[..., :3]
     np.testing.assert_array_equal(peeling_now, several._peeled(other)[0])
     finish(live.make_exact)

@@ -10,13 +10,14 @@ from exposures import USUAL
 from sampled import colours, tan
 from synthetic import smooth_table
 
-from blender_addon.model import catalogue, doses, history, schedule
+from blender_addon.model import basis, catalogue, doses, history, schedule
+from blender_addon.model import tan as tan_model
 from blender_addon.model.settings import TanSettings, own_minimal_doses
 from blender_addon.model.tan import tan_of
 from hylios.errors import InputError
 from hylios.skin import varied
 from hylios.sun.doses import of_sed
-from hylios.table import described_dynamics
+from hylios.table import SkinTable, described_dynamics
 from hylios.tanning import PIGMENTATIONS
 from hylios.tanning.shares import retained
 
@@ -66,6 +67,23 @@ def test_thickness_has_its_own_doses_and_the_med(table_path, monkeypatch):
     assert np.array_equal(arguments["exposures"].doses, whole.melanogenesis)
     assert np.array_equal(arguments["exposures"].thickening_doses, whole.thickening)
     assert np.all(whole.melanogenesis > 2.0 * whole.thickening)
+
+
+def test_what_a_table_lacks_is_told_at_once_when_asked_again(table_path, monkeypatch):
+    """Masks are simulated before that is clear, which takes seconds."""
+    simulated = []
+
+    def counted(*arguments, **more):
+        simulated.append(arguments)
+        return basis.basis(*arguments, **more)
+
+    monkeypatch.setattr(tan_model, "basis", counted)
+    monkeypatch.setattr(SkinTable, "holds", lambda _, states: np.zeros(len(states), bool))
+    values = settings(table_path, exposures=(replace(USUAL, dose=3.125), USUAL))
+    for _ in range(2):
+        with pytest.raises(InputError, match="another schedule"):
+            tan_model.basis_of(values, (0, 1), rough=True)
+    assert len(simulated) == 1
 
 
 def test_a_table_that_does_not_say_how_it_tans_is_refused(table):

@@ -146,6 +146,12 @@ def _holds_peeling(obj: bpy.types.Object) -> bool:
     return sizes == [tuple(image.size) for image in _peeling_images(obj)]
 
 
+def _show_peeling(obj: bpy.types.Object, content: str, *, pack: bool) -> None:
+    """Put what peels into the image of it, which has its size."""
+    for image, own in zip(_peeling_images(obj), _peeled(obj), strict=True):
+        images.swap_pixels(image, own, content, pack=pack)
+
+
 def show_exact(obj: bpy.types.Object, content: str) -> None:
     """Put what an object's settings lead to into its images, which hold it; lasting.
 
@@ -158,8 +164,7 @@ def show_exact(obj: bpy.types.Object, content: str) -> None:
     for role, image in shown_images(obj).items():
         values, data = told[role]
         images.swap_pixels(image, values, content, pack=True, data=data)
-    for image, own in zip(_peeling_images(obj), _peeled(obj), strict=True):
-        images.swap_pixels(image, own, content, pack=True)
+    _show_peeling(obj, content, pack=True)
 
 
 def _peeled(obj: bpy.types.Object) -> list[NDArray[np.float32]]:
@@ -219,8 +224,7 @@ def _show_roughly(
         if role not in spare:
             images.swap_pixels(image, told[role], content, pack=False)
     if _holds_peeling(obj):
-        for image, own in zip(_peeling_images(obj), _peeled(obj), strict=True):
-            images.swap_pixels(image, own, content, pack=False)
+        _show_peeling(obj, content, pack=False)
 
 
 def called(masks: Sequence[Mask]) -> str:

@@ -135,9 +135,15 @@ def _on(course: Course, shares: NDArray[np.float64], hour: float) -> NDArray[np.
 
 def _at(course: Course, curves: NDArray[np.float32], hours: NDArray) -> NDArray[np.float32]:
     """Curves (N, numbers, T) at some hours, straight between those that a course tells."""
-    told = course.hours
-    by_hour = np.stack([np.interp(hours, told, own) for own in np.eye(len(told))])
-    return curves.reshape(len(curves), -1, len(told)) @ by_hour.astype(np.float32)
+    by_hour = _straight(course.hours, hours)
+    return curves.reshape(len(curves), -1, len(by_hour)) @ by_hour
+
+
+def _straight(places: NDArray, wanted: NDArray) -> NDArray[np.float32]:
+    """Weights (P, W) of numbers at some places, straight from one to the next, at wanted ones."""
+    return np.stack([np.interp(wanted, places, one) for one in np.eye(len(places))]).astype(
+        np.float32
+    )
 
 
 def _roughly(
@@ -159,6 +165,5 @@ def _between_knots(
     """Numbers (N, K) at all knots, of such (F, K) at few ones: straight from one to the next."""
     told = values.reshape(*map(len, few), -1)
     for axis, (own, wanted) in enumerate(zip(few, knots, strict=True)):
-        line = np.stack([np.interp(wanted, own, one) for one in np.eye(len(own), dtype=np.float32)])
-        told = np.moveaxis(np.tensordot(told, line.astype(np.float32), (axis, 0)), -1, axis)
+        told = np.moveaxis(np.tensordot(told, _straight(own, wanted), (axis, 0)), -1, axis)
     return told.reshape(-1, values.shape[1])

@@ -3,20 +3,22 @@
 import argparse
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from examples.gallery import shots
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import numpy as np
 
     from examples.demo.scene import Subject
 
 WEEK = "week"
+
+Tan = Callable[[str, tuple[str, float]], object]
+"""Puts the body with a skin, after some sun, into an empty scene."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -41,15 +43,16 @@ def gallery(arguments: argparse.Namespace) -> None:
     from tqdm import tqdm
 
     import blender_addon
+    from examples.gallery import stage
 
-    subject, regions = _body()
+    tan = partial(stage.tanned, *_body())
     blender_addon.register()
     arguments.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=arguments.out) as scratch, tqdm(unit="picture") as bar:
         file = Path(scratch) / "picture.png"
-        _week(arguments, subject, regions, file, bar.update)
+        _week(arguments, tan, file, bar.update)
         if not arguments.only_week:
-            _places(arguments, subject, regions, file, bar.update)
+            _places(arguments, tan, file, bar.update)
     print(f"The sheets are in {arguments.out.resolve()}")
 
 
@@ -72,18 +75,14 @@ def _body() -> "tuple[Subject, Mapping[str, np.ndarray]]":
 
 
 def _week(
-    arguments: argparse.Namespace,
-    subject: "Subject",
-    regions: "Mapping[str, np.ndarray]",
-    scratch: Path,
-    rendered: "Callable[[], object]",
+    arguments: argparse.Namespace, tan: Tan, scratch: Path, rendered: Callable[[], object]
 ) -> None:
     from examples.figures.render_sheet import Panel, sheet
     from examples.gallery import stage
 
     rows = []
     for skin in shots.WEEK_SKINS:
-        stage.tanned(subject, skin, regions, shots.SAME_SUN)
+        tan(skin, shots.SAME_SUN)
         row = []
         for day, picture in stage.portraits(arguments.samples, arguments.size, scratch):
             row.append(Panel(picture, f"{skin}, day {day}"))
@@ -94,18 +93,14 @@ def _week(
 
 
 def _places(
-    arguments: argparse.Namespace,
-    subject: "Subject",
-    regions: "Mapping[str, np.ndarray]",
-    scratch: Path,
-    rendered: "Callable[[], object]",
+    arguments: argparse.Namespace, tan: Tan, scratch: Path, rendered: Callable[[], object]
 ) -> None:
     from examples.figures.render_sheet import Panel, sheet
     from examples.gallery import stage
 
     rows: dict[str, dict[str, list[Panel]]] = {place.name: {} for place in shots.PLACES}
     for skin in arguments.skins:
-        stage.tanned(subject, skin, regions, shots.ALIKE)
+        tan(skin, shots.ALIKE)
         for place, far, light, picture in stage.pictures(
             arguments.samples, arguments.size, scratch
         ):

@@ -15,7 +15,7 @@ LAMP_DISTANCE = 1.0
 
 
 def tanned(
-    subject: scene.Subject, skin: str, regions: Mapping[str, np.ndarray], sun: tuple[str, float]
+    subject: scene.Subject, regions: Mapping[str, np.ndarray], skin: str, sun: tuple[str, float]
 ) -> bpy.types.Object:
     """The subject in an empty scene, after days in the sun, with a new material's own look.
 
